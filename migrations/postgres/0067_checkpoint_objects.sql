@@ -9,3 +9,8 @@ CREATE TRIGGER checkpoints_leave_their_objects AFTER DELETE ON checkpoints
     FOR EACH ROW EXECUTE FUNCTION fretwear_leave_object();
 CREATE TRIGGER replaced_checkpoints_leave_their_objects AFTER UPDATE OF object ON checkpoints
     FOR EACH ROW WHEN (OLD.object IS DISTINCT FROM NEW.object) EXECUTE FUNCTION fretwear_leave_object();
+
+-- Whether the store of objects has the mark by which it is known, and, of a server, which database it belongs to: another one is a copy, and
+-- removes no objects.
+ALTER TABLE object_store ADD COLUMN is_marked boolean NOT NULL DEFAULT false;
+ALTER TABLE object_store ADD COLUMN owner text;

@@ -14,3 +14,8 @@ CREATE TRIGGER replaced_checkpoints_leave_their_objects AFTER UPDATE OF object O
 WHEN OLD.object IS NOT NULL AND OLD.object IS NOT NEW.object AND EXISTS (SELECT 1 FROM object_store WHERE removes) BEGIN
     INSERT OR IGNORE INTO unnamed_objects (key) VALUES (OLD.object);
 END;
+
+-- Whether the store of objects has the mark by which it is known, and, of a server, which database it belongs to: another one is a copy, and
+-- removes no objects.
+ALTER TABLE object_store ADD COLUMN is_marked INTEGER NOT NULL DEFAULT 0 CHECK (is_marked IN (0, 1));
+ALTER TABLE object_store ADD COLUMN owner TEXT;

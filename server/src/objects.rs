@@ -28,6 +28,8 @@ const RETRY_TIMEOUT: Duration = Duration::from_secs(10);
 /// Length of the parts of a large object, and how many of them are sent at the same time: their memory is taken for each writer.
 const PART_BYTES: usize = 8 << 20;
 const PARTS: usize = 2;
+/// Key of the object that marks a store: one without it is another one, or a folder that is not mounted.
+const MARK: &str = "fretwear-objects";
 /// Size of the chunks in which a file is read, bytes.
 const CHUNK_BYTES: usize = 64 << 10;
 
@@ -58,6 +60,11 @@ pub enum ObjectsError {
     /// There is no such object.
     #[error("the object {0} does not exist")]
     Missing(String),
+    /// The store has no mark: nothing is known to be missing there, and nothing is to be written.
+    #[error(
+        "{0} has no object {MARK}, which marks the store of this database; it is another one, or is not mounted"
+    )]
+    Unmarked(String),
     /// The store of objects refused a request or cannot be reached.
     #[error("{location}: {cause}")]
     Store {
@@ -141,6 +148,40 @@ impl Objects {
         &self.location
     }
 
+    /// Whether it is marked.
+    ///
+    /// # Errors
+    /// [`ObjectsError`] if it cannot be reached.
+    pub async fn is_marked(&self) -> Result<bool, ObjectsError> {
+        match self.store.head(&Path::from(MARK)).await {
+            Ok(_) => Ok(true),
+            Err(object_store::Error::NotFound { .. }) => Ok(false),
+            Err(cause) => Err(self.failed(cause.into())),
+        }
+    }
+
+    /// Marks it.
+    ///
+    /// # Errors
+    /// [`ObjectsError`].
+    pub async fn mark(&self) -> Result<(), ObjectsError> {
+        let text = "Objects of fretwear are here. Without this one they are not read, written or removed.\n";
+        let put = self.store.put(&Path::from(MARK), text.into()).await;
+        put.map_err(|cause| self.failed(cause.into()))?;
+        Ok(())
+    }
+
+    /// Writes an object in one request: nothing of it is left if that is given up.
+    ///
+    /// # Errors
+    /// [`ObjectsError`].
+    pub async fn put_whole(&self, key: &str, bytes: Vec<u8>) -> Result<(), ObjectsError> {
+        self.check_folder()?;
+        let put = self.store.put(&Path::from(key), bytes.into()).await;
+        put.map_err(|cause| self.failed(cause.into()))?;
+        Ok(())
+    }
+
     /// Writes an object: bytes, and the contents of files behind them, which are compared with what they should be. After an error there may be
     /// an object or not.
     ///
@@ -152,9 +193,7 @@ impl Objects {
         head: &[u8],
         files: &[ObjectFile],
     ) -> Result<(), ObjectsError> {
-        if !self.is_there() {
-            return Err(self.failed("the folder is not there".into()));
-        }
+        self.check_folder()?;
         let path = Path::from(key);
         let mut writer = BufWriter::with_capacity(Arc::clone(&self.store), path, PART_BYTES)
             .with_max_concurrency(PARTS);
@@ -220,8 +259,10 @@ impl Objects {
         if range.is_empty() {
             return Ok(Vec::new());
         }
-        let bytes = self.store.get_range(&Path::from(key), range).await;
-        Ok(bytes.map_err(|cause| self.failed_with(key, cause))?.into())
+        match self.store.get_range(&Path::from(key), range).await {
+            Ok(bytes) => Ok(bytes.into()),
+            Err(cause) => Err(self.failed_with(key, cause).await),
+        }
     }
 
     /// Reads an object.
@@ -230,8 +271,10 @@ impl Objects {
     /// [`ObjectsError`].
     pub async fn get_all(&self, key: &str) -> Result<Vec<u8>, ObjectsError> {
         let read = async { self.store.get(&Path::from(key)).await?.bytes().await };
-        let bytes = read.await;
-        Ok(bytes.map_err(|cause| self.failed_with(key, cause))?.into())
+        match read.await {
+            Ok(bytes) => Ok(bytes.into()),
+            Err(cause) => Err(self.failed_with(key, cause).await),
+        }
     }
 
     /// Removes an object; there may be none.
@@ -239,16 +282,25 @@ impl Objects {
     /// # Errors
     /// [`ObjectsError`].
     pub async fn remove(&self, key: &str) -> Result<(), ObjectsError> {
-        let removed = self.store.delete(&Path::from(key)).await;
-        match removed.map_err(|cause| self.failed_with(key, cause)) {
-            Err(ObjectsError::Missing(_)) => Ok(()),
-            removed => removed,
+        let Err(cause) = self.store.delete(&Path::from(key)).await else {
+            return Ok(());
+        };
+        match self.failed_with(key, cause).await {
+            ObjectsError::Missing(_) => Ok(()),
+            error => Err(error),
         }
     }
 
-    /// Whether the folder, if it is one, is there: in one that is not mounted nothing is known to be missing, and nothing is to be written.
-    fn is_there(&self) -> bool {
-        self.folder.as_ref().is_none_or(|folder| folder.is_dir())
+    /// Checks the mark of a folder: what is not mounted would take an object all the same.
+    fn check_folder(&self) -> Result<(), ObjectsError> {
+        match &self.folder {
+            Some(folder) if !folder.join(MARK).exists() => Err(self.unmarked()),
+            _ => Ok(()),
+        }
+    }
+
+    fn unmarked(&self) -> ObjectsError {
+        ObjectsError::Unmarked(self.location.to_string())
     }
 
     fn failed(&self, cause: Box<dyn std::error::Error + Send + Sync>) -> ObjectsError {
@@ -258,12 +310,15 @@ impl Objects {
         }
     }
 
-    fn failed_with(&self, key: &str, cause: object_store::Error) -> ObjectsError {
-        match cause {
-            object_store::Error::NotFound { .. } if self.is_there() => {
-                ObjectsError::Missing(key.to_owned())
-            }
-            cause => self.failed(cause.into()),
+    /// The error of a request for an object: it is missing only in a store with the mark.
+    async fn failed_with(&self, key: &str, cause: object_store::Error) -> ObjectsError {
+        let object_store::Error::NotFound { .. } = cause else {
+            return self.failed(cause.into());
+        };
+        match self.is_marked().await {
+            Ok(true) => ObjectsError::Missing(key.to_owned()),
+            Ok(false) => self.unmarked(),
+            Err(error) => error,
         }
     }
 }

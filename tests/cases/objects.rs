@@ -138,7 +138,8 @@ async fn the_database_keeps_little_of_a_job_whose_results_were_moved() {
     let objects = format!("file://{}", folder.path().join("objects").display());
     let server = Server::start_with(folder.path(), &["--objects", &objects]);
     let empty = pages(folder.path()).await;
-    let jobs = 12;
+    // A page more or less is a page of all jobs.
+    let jobs = 20;
     for _ in 0..jobs {
         solved(&server, r#"{"system":{"kind":"sd_card"}}"#).await;
     }
@@ -186,6 +187,10 @@ async fn jobs_are_solved_and_read_while_the_bucket_does_not_answer() {
     moved(&server, 2).await;
     assert_eq!(bucket.objects().await, 1, "the new one is empty at first");
     assert_eq!(server.get(&history(&second)).await.0, 200);
+    // Whether it is missing is not known in a bucket without the mark.
+    let (status, problem) = server.get(&history(&first)).await;
+    assert_eq!(status, 503, "{problem}");
+    bucket.mark().await;
     let (status, problem) = server.get(&history(&first)).await;
     assert_eq!(status, 500, "{problem}");
     assert_eq!(problem["type"], "/problems/result-damaged");

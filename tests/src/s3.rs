@@ -6,6 +6,8 @@ use std::process::{Child, Command, Stdio};
 
 /// Name of its bucket.
 const BUCKET: &str = "results";
+/// Name of the object that marks a store.
+const MARK: &str = "fretwear-objects";
 
 /// A server of the S3 interface with an empty bucket.
 #[derive(Debug)]
@@ -85,7 +87,17 @@ impl S3 {
         ]
     }
 
-    /// Number of objects in its bucket.
+    /// Marks its bucket as the store of objects of a database.
+    ///
+    /// # Panics
+    /// If it does not answer.
+    pub async fn mark(&self) {
+        let mark = format!("{}/{BUCKET}/fretwear/{MARK}", self.endpoint);
+        let put = reqwest::Client::new().put(mark).send().await;
+        assert!(put.expect("an answer").status().is_success());
+    }
+
+    /// Number of objects in its bucket, beside the mark.
     ///
     /// # Panics
     /// If it does not answer.
@@ -93,7 +105,7 @@ impl S3 {
         let list = format!("{}/{BUCKET}?list-type=2", self.endpoint);
         let listed = reqwest::get(list).await.expect("an answer");
         let text = listed.text().await.expect("a list");
-        text.matches("<Key>").count()
+        text.matches("<Key>").count() - text.matches(MARK).count()
     }
 }
 

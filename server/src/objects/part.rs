@@ -63,13 +63,14 @@ impl ObjectPart {
         let path = Path::from(&*self.key);
         let options = GetOptions::new().with_range(Some(GetRange::Bounded(from..until)));
         let opened = self.objects.store.get_opts(&path, options);
-        let opened = opened
-            .await
-            .map_err(|cause| self.objects.failed_with(&self.key, cause))?;
-        let (objects, key) = (self.objects.clone(), self.key.clone());
+        let opened = match opened.await {
+            Ok(opened) => opened,
+            Err(cause) => return Err(self.objects.failed_with(&self.key, cause).await),
+        };
+        let objects = self.objects.clone();
         let chunks = opened.into_stream();
         Ok(Box::pin(
-            chunks.map_err(move |cause| objects.failed_with(&key, cause)),
+            chunks.map_err(move |cause| objects.failed(cause.into())),
         ))
     }
 }

@@ -23,6 +23,7 @@ async fn an_object_has_its_head_and_its_files_and_is_read_in_parts() {
     std::fs::write(&file.path, "fields").expect("written");
     let address = format!("file://{}/objects", folder.path().display());
     let objects = Objects::open(&address).expect("opened");
+    objects.mark().await.expect("marked");
     let files = [file.clone(), file];
     let written = objects.put("jobs/1/a", b"head", &files).await;
     written.expect("written");
@@ -52,6 +53,7 @@ async fn an_object_whose_files_are_missing_or_damaged_is_not_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let objects = Objects::open(&format!("file://{}", folder.path().display()));
     let objects = objects.expect("opened");
+    objects.mark().await.expect("marked");
     let file = file(&folder.path().join("a.vtu"), b"fields");
     for found in [None, Some("field"), Some("FIELDS")] {
         if let Some(found) = found {
@@ -79,25 +81,36 @@ fn other_addresses_are_refused() {
     }
 }
 
-/// As that of a file system that is not mounted.
 #[tokio::test]
-async fn a_folder_that_is_not_there_has_no_missing_objects_and_takes_none() {
+async fn a_store_without_its_mark_has_no_missing_objects_and_takes_none() {
     let folder = tempfile::tempdir().expect("a folder");
     let place = folder.path().join("objects");
     let objects = Objects::open(&format!("file://{}", place.display()));
     let objects = objects.expect("opened");
-    std::fs::remove_dir(&place).expect("removed");
-    let failed = [
-        objects.get_all("a").await.map(drop),
-        objects.get("a", 0..4).await.map(drop),
-        objects.put("a", b"head", &[]).await,
-        objects.remove("a").await,
-    ];
-    for failed in failed {
-        assert!(
-            matches!(failed, Err(ObjectsError::Store { .. })),
-            "{failed:?}"
-        );
+    objects.mark().await.expect("marked");
+    assert!(objects.is_marked().await.expect("an answer"));
+    let missing = objects.get_all("a").await;
+    assert!(
+        matches!(missing, Err(ObjectsError::Missing(_))),
+        "{missing:?}"
+    );
+    std::fs::remove_dir_all(&place).expect("removed");
+    // The folder of a file system that is not mounted may be there or not.
+    for is_there in [false, true] {
+        if is_there {
+            std::fs::create_dir(&place).expect("a folder");
+        }
+        assert!(!objects.is_marked().await.expect("an answer"));
+        let failed = [
+            objects.get_all("a").await.map(drop),
+            objects.get("a", 0..4).await.map(drop),
+            objects.put("a", b"head", &[]).await,
+            objects.put_whole("a", b"head".to_vec()).await,
+            objects.remove("a").await,
+        ];
+        for failed in failed {
+            let is_unmarked = matches!(failed, Err(ObjectsError::Unmarked(_)));
+            assert!(is_unmarked, "{failed:?}");
+        }
     }
-    assert!(!place.exists());
 }

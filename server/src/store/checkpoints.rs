@@ -15,8 +15,10 @@ use crate::store::{JobUpdate, Lease, LeaseState, Store, StoreError, integrity};
 
 /// Smallest state in an object, bytes: below, a request to a bucket costs more than a row. Arbitrary.
 const SMALLEST: usize = 64 << 10;
-/// Longest time for an object: the worker waits for it.
-const LONGEST: Duration = Duration::from_secs(10);
+/// Longest time for an object: the worker waits for it, also one that is asked to stop.
+const LONGEST: Duration = Duration::from_secs(3);
+/// Longest time for reading one.
+const LONGEST_READ: Duration = Duration::from_secs(30);
 /// Time without a try after a failure.
 const PAUSE: Duration = Duration::from_mins(1);
 /// An object that no update has named for as long is removed, ms. Its update is refused before.
@@ -64,19 +66,23 @@ impl Store {
         lease: Lease,
         checkpoint: &EncodedCheckpoint,
     ) -> Option<String> {
+        // What replaces the checkpoints of a copied database would never be removed.
+        if checkpoint.state.len() < SMALLEST || !self.local().removes_objects {
+            return None;
+        }
         let failure = &self.local().objects_failed_at;
         let failed_at = *failure.lock().await;
-        let is_paused = failed_at.is_some_and(|at| at.elapsed() < PAUSE);
-        if checkpoint.state.len() < SMALLEST || is_paused {
+        if failed_at.is_some_and(|at| at.elapsed() < PAUSE) {
             return None;
         }
         let key = format!("checkpoints/{}/{}", lease.job, Uuid::now_v7());
-        if let Err(error) = self.note_checkpoint(&key).await {
-            // The update will say the same.
-            tracing::warn!(%error, "a checkpoint was not written to an object");
-            return None;
-        }
-        let error = match timeout(LONGEST, objects.put(&key, &checkpoint.state, &[])).await {
+        let put = async {
+            self.check_mark(objects).await?;
+            self.note_checkpoint(&key).await?;
+            let put = objects.put_whole(&key, checkpoint.state.clone()).await;
+            put.map_err(StoreError::from)
+        };
+        let error = match timeout(LONGEST, put).await {
             Ok(Ok(())) => return Some(key),
             Ok(Err(error)) => error.to_string(),
             Err(_) => format!("no answer within {LONGEST:?}"),
@@ -103,7 +109,14 @@ impl Store {
             return Ok(None);
         };
         let objects = self.local().objects.as_ref().ok_or(StoreError::NoObjects)?;
-        match objects.get_all(&key).await {
+        let read = timeout(LONGEST_READ, objects.get_all(&key)).await;
+        let read = read.unwrap_or_else(|_| {
+            Err(ObjectsError::Store {
+                location: objects.location().to_owned(),
+                cause: format!("no answer within {LONGEST_READ:?}").into(),
+            })
+        });
+        match read {
             Ok(state) => Ok(integrity::checkpoint(lease.job, cycle, &sha256, state)),
             Err(error @ ObjectsError::Missing(_)) => {
                 tracing::error!(job = %lease.job, cycle, %error, "a checkpoint is missing");

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use api::job::Status;
-use tokio::sync::{Mutex, Notify, broadcast, mpsc};
+use tokio::sync::{Mutex, Notify, OnceCell, broadcast, mpsc};
 use tokio::time::Instant;
 use uuid::Uuid;
 
@@ -38,6 +38,10 @@ pub(in crate::store) struct Local {
     pub(in crate::store) folder: Folder,
     /// Where results of succeeded jobs are moved to, and checkpoints are written.
     pub(in crate::store) objects: Option<Objects>,
+    /// Once they are known to be those of this database.
+    pub(in crate::store) objects_checked: OnceCell<()>,
+    /// Whether those that no job names are removed.
+    pub(in crate::store) removes_objects: bool,
     /// When they took no checkpoint the last time.
     pub(in crate::store) objects_failed_at: Mutex<Option<Instant>>,
     /// The machine's calibration cache.
@@ -69,6 +73,8 @@ impl Local {
             others: None,
             folder: Folder::beside(files),
             objects: None,
+            objects_checked: OnceCell::new(),
+            removes_objects: false,
             objects_failed_at: Mutex::default(),
             machine: beside(files, &format!("{own}.machine.json")),
             attempt_limit: limits.attempts,

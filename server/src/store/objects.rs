@@ -7,6 +7,7 @@
 use std::fmt::Display;
 
 use futures_util::{StreamExt, stream};
+use tokio::sync::Semaphore;
 use uuid::Uuid;
 
 use crate::objects::{Objects, ObjectsError};
@@ -16,7 +17,9 @@ use crate::store::{Store, StoreError};
 /// Most jobs whose results are moved at once: they share two transactions. Arbitrary: more than a machine ends within a second.
 const JOBS: i64 = 512;
 /// Objects that are written at the same time. Arbitrary: an object takes some 10 to 100 ms.
-const WRITES: usize = 8;
+const WRITES: usize = 32;
+/// Those of them that have files, whose parts are in memory.
+const LARGE_WRITES: usize = 4;
 
 impl Store {
     /// Lets the store move results to a store of objects, or, without one, checks that none were moved.
@@ -37,7 +40,27 @@ impl Store {
             (_, Some(given)) => self.note_address_of_objects(given.location()).await?,
         }
         self.local_mut().objects = objects;
+        self.local_mut().removes_objects = self.removes_objects().await?;
         Ok(self)
+    }
+
+    /// Makes sure that the store of objects is that of this database, before it writes or removes objects: it has a mark, which it gets the first
+    /// time.
+    ///
+    /// # Errors
+    /// [`StoreError`], among others if it has lost the mark.
+    pub(in crate::store) async fn check_mark(&self, objects: &Objects) -> Result<(), StoreError> {
+        let check = async || {
+            if !objects.is_marked().await? {
+                if self.are_objects_marked().await? {
+                    return Err(ObjectsError::Unmarked(objects.location().to_owned()).into());
+                }
+                objects.mark().await?;
+            }
+            self.note_mark_of_objects().await
+        };
+        self.local().objects_checked.get_or_try_init(check).await?;
+        Ok(())
     }
 
     /// Moves results of succeeded jobs to the store of objects, of a limited number of jobs. Returns these jobs; their files are
@@ -89,13 +112,16 @@ impl Store {
         if jobs.is_empty() {
             return Ok(Vec::new());
         }
+        self.check_mark(objects).await?;
         let keyed = jobs.into_iter().map(|id| {
             let key = format!("jobs/{id}/{}", Uuid::now_v7());
             (id, key)
         });
         let keyed: Vec<_> = keyed.collect();
         self.note_unnamed(&keyed).await?;
-        let writes = stream::iter(keyed).map(|(id, key)| self.write_object(objects, id, key));
+        let large = Semaphore::new(LARGE_WRITES);
+        let targets = (objects, &large);
+        let writes = stream::iter(keyed).map(|(id, key)| self.write_object(targets, id, key));
         Ok(writes.buffer_unordered(WRITES).collect().await)
     }
 
@@ -104,6 +130,7 @@ impl Store {
         if keys.is_empty() {
             return Ok(());
         }
+        self.check_mark(objects).await?;
         let removals = stream::iter(keys).map(async |key| {
             objects.remove(&key).await?;
             Ok::<_, ObjectsError>(key)
@@ -123,7 +150,7 @@ impl Store {
     /// Writes the results of a job to an object; `None` if the job was deleted, or if its results are damaged, which then stay.
     async fn write_object(
         &self,
-        objects: &Objects,
+        (objects, large): (&Objects, &Semaphore),
         id: Uuid,
         key: String,
     ) -> Result<Option<Moved>, StoreError> {
@@ -140,6 +167,11 @@ impl Store {
             Err(error) => return Err(error),
         };
         let Prepared { moved, head, files } = prepared;
+        let _large = if files.is_empty() {
+            None
+        } else {
+            large.acquire().await.ok()
+        };
         match objects.put(&moved.key, &head, &files).await {
             Ok(()) => Ok(Some(moved)),
             Err(error @ ObjectsError::Damaged { .. }) if self.local().folder.exists() => {

@@ -21,6 +21,7 @@ mod leases;
 mod maintenance;
 mod migrations;
 mod notifications;
+mod object_names;
 mod objects;
 mod open;
 mod queries;

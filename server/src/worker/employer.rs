@@ -40,6 +40,8 @@ impl EmployerError {
                     | StoreError::NoAnswer(_)
                     | StoreError::Unwritten
                     | StoreError::Objects(_)
+                    // Of another service of the database.
+                    | StoreError::NoObjects
             ),
             // As the store's own errors: a finished solve waits for a service that fails.
             Self::Remote(error) => error.is_temporary() || error.is_of_type("/problems/internal"),

@@ -49,7 +49,11 @@ pub(super) async fn start_of<'a, E: Employer>(
             }
             Some(ClaimedCheckpoint::Stored { .. }) => {}
         }
-        match employer.checkpoint(lease).await {
+        let answer = tokio::select! {
+            answer = employer.checkpoint(lease) => answer,
+            () = stopping.cancelled() => continue,
+        };
+        match answer {
             Ok(Some(checkpoint)) => return Ok(Start::From(Some(Cow::Owned(checkpoint)))),
             Ok(None) => break,
             Err(error) if error.is_temporary() => {

@@ -74,6 +74,8 @@ struct Simulated {
     /// Times of claims that got a job.
     claims: Vec<Duration>,
     harm: Harm,
+    /// Jobs that it claims at once.
+    bundle: usize,
 }
 
 impl Simulated {
@@ -119,7 +121,7 @@ impl Simulated {
             },
             is_remote: true,
             capacity: Capacity {
-                slots: 1,
+                slots: self.bundle,
                 memory: MemoryBudget {
                     memory_mb: 10_000,
                     used_mb: 0,
@@ -152,12 +154,14 @@ impl Simulated {
             events: vec![(EventName::Cycle, format!("{{\"lease\":{}}}", claim.lease))],
             ..JobUpdate::default()
         };
-        let recorded = self
-            .answered(|| remote.record(lease, &update, length))
-            .await;
-        if recorded == LeaseState::Lost {
-            self.done.lost.fetch_add(1, Ordering::Relaxed);
-            return;
+        if !*ENDS_ONLY {
+            let recorded = self
+                .answered(|| remote.record(lease, &update, length))
+                .await;
+            if recorded == LeaseState::Lost {
+                self.done.lost.fetch_add(1, Ordering::Relaxed);
+                return;
+            }
         }
         let last = JobUpdate {
             number: 2,
@@ -190,10 +194,14 @@ static DOCUMENTS: LazyLock<EncodedBlock> = LazyLock::new(|| {
     block.encode().expect("JSON")
 });
 
-/// Workers of a process.
-fn slots() -> usize {
-    let asked = std::env::var("FRETWEAR_WORKERS_SLOTS").ok();
-    asked.map_or(4, |slots| slots.parse().expect("a number"))
+/// Whether workers record nothing between claim and end.
+pub(super) static ENDS_ONLY: LazyLock<bool> =
+    LazyLock::new(|| std::env::var_os("FRETWEAR_WORKERS_ENDS_ONLY").is_some());
+
+/// A number of the environment.
+fn asked(variable: &str, default: usize) -> usize {
+    let asked = std::env::var(variable).ok();
+    asked.map_or(default, |number| number.parse().expect("a number"))
 }
 
 /// Starts workers, several in a process, which is for one of the services.
@@ -205,7 +213,8 @@ pub(super) fn started(
 ) -> JoinSet<Vec<Duration>> {
     let client = |server: &&str| Client::new(server, None, None).expect("a client");
     let clients: Vec<_> = services.iter().map(client).collect();
-    let slots = slots();
+    let slots = asked("FRETWEAR_WORKERS_SLOTS", 4);
+    let bundle = asked("FRETWEAR_WORKERS_BUNDLE", 1);
     let remote = |number: usize| {
         let client = clients[number % clients.len()].clone();
         let lengths = (harm.lease(), WAIT);
@@ -225,6 +234,7 @@ pub(super) fn started(
             done: Arc::clone(done),
             claims: Vec::new(),
             harm,
+            bundle,
         })
         .map(Simulated::work)
         .collect()

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use tests::{PostgresServer, Server};
 
 use super::simulated::{Done, Harm, started};
-use super::{ATTEMPTS, SPEC, is_long, load, report};
+use super::{ATTEMPTS, SPEC, is_long, load, report, report_size};
 
 /// Jobs of the sweep that wait at most in the short form.
 const AHEAD: u64 = 60;
@@ -47,8 +47,9 @@ async fn solved_once(folder: &Path, services: usize) {
         (JOBS, 30)
     };
     let ahead = AHEAD.to_string();
+    let objects = format!("file://{}", folder.join("objects").display());
     let options = if is_long() {
-        ATTEMPTS.to_vec()
+        [&ATTEMPTS[..], &["--objects", &objects]].concat()
     } else {
         [&ATTEMPTS[..], &["--jobs-ahead", &ahead]].concat()
     };
@@ -92,7 +93,26 @@ async fn solved_once(folder: &Path, services: usize) {
     }
     if is_long() {
         report(&services[0], jobs, elapsed, claims).await;
+        moved(&services[0]).await;
+        say(&format!("results are objects after {:?}", began.elapsed()));
+        report_size(&services[0], jobs).await;
     }
+}
+
+/// Waits until no results are to be moved into objects.
+async fn moved(server: &Server) {
+    let moved = async {
+        loop {
+            let (_, metrics) = server.get("/metrics").await;
+            let mut lines = metrics.as_str().expect("a text").lines();
+            if lines.any(|line| line == "fretwear_results_to_move 0") {
+                return;
+            }
+            tokio::time::sleep(Duration::from_millis(100)).await;
+        }
+    };
+    let moved = tokio::time::timeout(PATIENCE, moved).await;
+    moved.expect("results are moved in time");
 }
 
 /// Submits a sweep of so many jobs.

@@ -36,6 +36,15 @@ operations! {
     /// Notes it.
     pub(in crate::store) async fn note_address_of_objects(&self, address: &str) -> Result<(), StoreError>;
 
+    /// Whether objects that no job names any more are removed: not by a copy of a database, whose original names them, too.
+    pub(in crate::store) async fn removes_objects(&self) -> Result<bool, StoreError>;
+
+    /// Whether the store of objects has got its mark.
+    pub(in crate::store) async fn are_objects_marked(&self) -> Result<bool, StoreError>;
+
+    /// Notes that it has.
+    pub(in crate::store) async fn note_mark_of_objects(&self) -> Result<(), StoreError>;
+
     /// Whether it is this process that moves results.
     pub(in crate::store) async fn moves_results(&self) -> Result<bool, StoreError>;
 

@@ -5,6 +5,7 @@ use sqlx::postgres::PgConnection;
 use uuid::Uuid;
 
 use crate::clock::Now;
+use crate::objects::Objects;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::checkpoints::CheckpointObject;
 use crate::store::postgres::PostgresStore;
@@ -90,18 +91,39 @@ pub(super) async fn write(
 async fn name(connection: &mut PgConnection, key: &str) -> Result<bool, StoreError> {
     let noted = sqlx::query("DELETE FROM unnamed_objects WHERE key = $1 AND NOT is_removing")
         .bind(key)
+        .execute(&mut *connection)
+        .await?;
+    if noted.rows_affected() > 0 {
+        return Ok(true);
+    }
+    // It may have been written after its removal.
+    sqlx::query("INSERT INTO unnamed_objects (key) VALUES ($1) ON CONFLICT DO NOTHING")
+        .bind(key)
         .execute(connection)
         .await?;
-    Ok(noted.rows_affected() > 0)
+    Ok(false)
 }
 
 impl PostgresStore {
     pub(in crate::store) async fn note_checkpoint(&self, key: &str) -> Result<(), StoreError> {
-        sqlx::query("INSERT INTO unnamed_objects (key, noted_at) VALUES ($1, fretwear_now())")
-            .bind(key)
-            .execute(&self.pool)
-            .await?;
-        Ok(())
+        // A service that started meanwhile may have noted another store of objects.
+        let address = self.local.objects.as_ref().map(Objects::location);
+        let noted = sqlx::query(
+            "INSERT INTO unnamed_objects (key, noted_at) SELECT $1, fretwear_now() FROM object_store WHERE address = $2",
+        )
+        .bind(key)
+        .bind(address)
+        .execute(&self.pool)
+        .await?;
+        if noted.rows_affected() > 0 {
+            return Ok(());
+        }
+        let stored = sqlx::query_scalar("SELECT address FROM object_store");
+        let stored: Option<String> = stored.fetch_optional(&self.pool).await?;
+        Err(StoreError::OtherObjects {
+            stored: stored.unwrap_or_default(),
+            given: address.unwrap_or_default().to_owned(),
+        })
     }
 
     pub(in crate::store) async fn checkpoint_object(

@@ -1,16 +1,13 @@
-//! Statements about objects: their keys, and what leaves the database when an object has it.
+//! Statements about objects: their keys, and the process that moves results there.
 
 use sqlx::Connection;
 use sqlx::postgres::PgConnection;
 use uuid::Uuid;
 
-use crate::objects::Objects;
 use crate::store::StoreError;
 use crate::store::checkpoints::REMOVED_AFTER_MS;
-use crate::store::postgres::job_rows::lock;
 use crate::store::postgres::open::refuse_standby;
 use crate::store::postgres::{PostgresStore, begin};
-use crate::store::results_to_move::Moved;
 
 /// Key of the lock of the process that moves results: `frtw` in ASCII.
 const MOVER: i64 = 0x6672_7477;
@@ -33,14 +30,50 @@ impl PostgresStore {
         sqlx::query("LOCK TABLE object_store IN EXCLUSIVE MODE")
             .execute(&mut *transaction)
             .await?;
+        let owner = identity(&mut transaction).await?;
+        let before: Option<Option<String>> = sqlx::query_scalar("SELECT owner FROM object_store")
+            .fetch_optional(&mut *transaction)
+            .await?;
+        if let Some(Some(before)) = &before
+            && *before != owner
+        {
+            // As of a copied file.
+            tracing::warn!(
+                "this database is a copy: objects of its jobs are not removed; once the original is gone, \
+                 UPDATE object_store SET removes = true"
+            );
+            sqlx::query("WITH notes AS (DELETE FROM unnamed_objects) UPDATE object_store SET removes = false")
+                .execute(&mut *transaction)
+                .await?;
+        }
         sqlx::query(
-            "WITH updated AS (UPDATE object_store SET address = $1 RETURNING 1) \
-             INSERT INTO object_store (address) SELECT $1 WHERE NOT EXISTS (SELECT 1 FROM updated)",
+            "WITH updated AS (UPDATE object_store SET is_marked = is_marked AND address = $1, address = $1, owner = $2 RETURNING 1) \
+             INSERT INTO object_store (address, owner) SELECT $1, $2 WHERE NOT EXISTS (SELECT 1 FROM updated)",
         )
         .bind(address)
+        .bind(owner)
         .execute(&mut *transaction)
         .await?;
         Ok(transaction.commit().await?)
+    }
+
+    pub(in crate::store) async fn removes_objects(&self) -> Result<bool, StoreError> {
+        let removes =
+            sqlx::query_scalar("SELECT EXISTS (SELECT 1 FROM object_store WHERE removes)");
+        Ok(removes.fetch_one(&self.pool).await?)
+    }
+
+    pub(in crate::store) async fn are_objects_marked(&self) -> Result<bool, StoreError> {
+        let marked =
+            sqlx::query_scalar("SELECT EXISTS (SELECT 1 FROM object_store WHERE is_marked)");
+        Ok(marked.fetch_one(&self.pool).await?)
+    }
+
+    pub(in crate::store) async fn note_mark_of_objects(&self) -> Result<(), StoreError> {
+        sqlx::query("UPDATE object_store SET is_marked = true WHERE NOT is_marked")
+            .execute(&self.pool)
+            .await?;
+        Ok(())
     }
 
     /// The process that holds a lock moves results, as long as its connection lives. Another one may take over while this one still
@@ -122,74 +155,15 @@ impl PostgresStore {
             .await?;
         Ok(())
     }
+}
 
-    pub(in crate::store) async fn name_objects(
-        &self,
-        moved: &[Moved],
-    ) -> Result<Vec<Uuid>, StoreError> {
-        let mut named = Vec::with_capacity(moved.len());
-        for results in moved {
-            match self.name_object(results).await {
-                Ok(true) => named.push(results.id),
-                Ok(false) => {}
-                // What is named stays so; the others are moved another time.
-                Err(error) if !named.is_empty() => {
-                    tracing::warn!(%error, "results of a job were not moved");
-                    return Ok(named);
-                }
-                Err(error) => return Err(error),
-            }
-        }
-        Ok(named)
-    }
-
-    /// Names an object; false if the results are not those any more that it has, or if the object is being removed.
-    async fn name_object(&self, moved: &Moved) -> Result<bool, StoreError> {
-        let mut transaction = begin(&self.pool, None).await?;
-        lock(&mut transaction, moved.id).await?;
-        let noted = sqlx::query("DELETE FROM unnamed_objects WHERE key = $1 AND NOT is_removing")
-            .bind(&moved.key)
-            .execute(&mut *transaction)
-            .await?;
-        if noted.rows_affected() == 0 {
-            // Another process has taken it for one that is left; it may have been written after its removal.
-            sqlx::query("INSERT INTO unnamed_objects (key) VALUES ($1) ON CONFLICT DO NOTHING")
-                .bind(&moved.key)
-                .execute(&mut *transaction)
-                .await?;
-            transaction.commit().await?;
-            return Ok(false);
-        }
-        let address = self.local.objects.as_ref().map(Objects::location);
-        let updated = sqlx::query(
-            "UPDATE result_blocks SET content = '', object = $1, content_bytes = $2, entries = $3, documents = $4 \
-             WHERE job_id = $5 AND entries = $6 AND is_movable AND object IS NULL \
-             AND EXISTS (SELECT 1 FROM object_store WHERE address = $7)",
-        )
-        .bind(&moved.key)
-        .bind(moved.content_bytes)
-        .bind(&moved.entries.1)
-        .bind(&moved.documents)
-        .bind(moved.id)
-        .bind(&moved.entries.0)
-        .bind(address)
-        .execute(&mut *transaction)
-        .await?;
-        if updated.rows_affected() == 0 {
-            return Ok(false);
-        }
-        sqlx::query(
-            "WITH texts AS (UPDATE jobs SET spec = $2, plan = 'null' WHERE id = $1), \
-             files AS (DELETE FROM result_files WHERE job_id = $1 AND place IS NOT NULL) \
-             DELETE FROM events WHERE job_id = $1 AND seq < (SELECT last_event FROM jobs WHERE id = $1)",
-        )
-        .bind(moved.id)
-        .bind(&moved.listed)
-        .execute(&mut *transaction)
-        .await?;
-        transaction.commit().await?;
-        Ok(true)
-    }
+/// What a database has that its copies do not: the server that it was made on, and its number there. A standby that is promoted keeps
+/// both.
+async fn identity(connection: &mut PgConnection) -> Result<String, StoreError> {
+    let identity = sqlx::query_scalar(
+        "SELECT system_identifier || '/' || oid FROM pg_control_system(), pg_database WHERE datname = current_database()",
+    );
+    Ok(identity.fetch_one(connection).await?)
 }
 
 /// A connection if it still answers.

@@ -4,7 +4,7 @@ use sha2::{Digest, Sha256};
 use sqlx::{Sqlite, SqliteConnection, Transaction};
 use uuid::Uuid;
 
-use crate::clock::now_ms;
+use crate::clock::{monotonic_ms, now_ms};
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::checkpoints::{CheckpointObject, NAMED_WITHIN_MS};
 use crate::store::rows::integer;
@@ -99,10 +99,18 @@ pub(super) async fn write(
 async fn name(transaction: &mut Transaction<'_, Sqlite>, key: &str) -> Result<bool, StoreError> {
     let noted = sqlx::query("DELETE FROM unnamed_objects WHERE key = ? AND noted_at > ?")
         .bind(key)
-        .bind(now_ms() - NAMED_WITHIN_MS)
+        .bind(monotonic_ms() - NAMED_WITHIN_MS)
         .execute(&mut **transaction)
         .await?;
-    Ok(noted.rows_affected() > 0)
+    if noted.rows_affected() > 0 {
+        return Ok(true);
+    }
+    // It may have been written after its removal.
+    sqlx::query("INSERT OR IGNORE INTO unnamed_objects (key) VALUES (?)")
+        .bind(key)
+        .execute(&mut **transaction)
+        .await?;
+    Ok(false)
 }
 
 impl SqliteStore {
@@ -110,7 +118,7 @@ impl SqliteStore {
         self.local.disk.check()?;
         sqlx::query("INSERT INTO unnamed_objects (key, noted_at) VALUES (?, ?)")
             .bind(key)
-            .bind(now_ms())
+            .bind(monotonic_ms())
             .execute(&self.writer)
             .await?;
         Ok(())

@@ -4,7 +4,7 @@ use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
-use crate::clock::now_ms;
+use crate::clock::monotonic_ms;
 use crate::store::StoreError;
 use crate::store::checkpoints::REMOVED_AFTER_MS;
 use crate::store::results_to_move::Moved;
@@ -31,8 +31,14 @@ impl SqliteStore {
         address: &str,
     ) -> Result<(), StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let updated = sqlx::query("UPDATE object_store SET address = ?")
-            .bind(address)
+        let updated = sqlx::query(
+            "UPDATE object_store SET address = ?1, is_marked = is_marked AND address = ?1",
+        )
+        .bind(address)
+        .execute(&mut *transaction)
+        .await?;
+        // What an earlier process was writing is not written any more.
+        sqlx::query("UPDATE unnamed_objects SET noted_at = 0")
             .execute(&mut *transaction)
             .await?;
         if updated.rows_affected() == 0 {
@@ -42,6 +48,25 @@ impl SqliteStore {
                 .await?;
         }
         Ok(transaction.commit().await?)
+    }
+
+    pub(in crate::store) async fn removes_objects(&self) -> Result<bool, StoreError> {
+        let removes =
+            sqlx::query_scalar("SELECT EXISTS (SELECT 1 FROM object_store WHERE removes)");
+        Ok(removes.fetch_one(&self.writer).await?)
+    }
+
+    pub(in crate::store) async fn are_objects_marked(&self) -> Result<bool, StoreError> {
+        let marked =
+            sqlx::query_scalar("SELECT EXISTS (SELECT 1 FROM object_store WHERE is_marked)");
+        Ok(marked.fetch_one(&self.writer).await?)
+    }
+
+    pub(in crate::store) async fn note_mark_of_objects(&self) -> Result<(), StoreError> {
+        sqlx::query("UPDATE object_store SET is_marked = 1 WHERE NOT is_marked")
+            .execute(&self.writer)
+            .await?;
+        Ok(())
     }
 
     #[expect(
@@ -82,7 +107,7 @@ impl SqliteStore {
     ) -> Result<Vec<String>, StoreError> {
         let keys =
             sqlx::query_scalar("SELECT key FROM unnamed_objects WHERE noted_at <= ? LIMIT ?")
-                .bind(now_ms() - REMOVED_AFTER_MS)
+                .bind(monotonic_ms() - REMOVED_AFTER_MS)
                 .bind(most);
         Ok(keys.fetch_all(&self.readers).await?)
     }

@@ -12,6 +12,7 @@ on_both_engines! { WithObjects:
     a_damaged_or_missing_checkpoint_is_none,
     an_object_that_is_being_written_is_not_removed,
     a_checkpoint_whose_object_may_be_removed_is_in_the_database,
+    nothing_is_written_to_a_store_of_objects_that_has_lost_its_mark,
     a_database_with_a_checkpoint_elsewhere_is_not_opened_without_it,
 }
 
@@ -143,7 +144,11 @@ async fn a_damaged_or_missing_checkpoint_is_none(database: WithObjects) {
     assert_eq!(store.checkpoint(&claim).await.expect("the store"), None);
     std::fs::remove_file(&object).expect("removed");
     assert_eq!(store.checkpoint(&claim).await.expect("the store"), None);
-    // One that cannot be read may be readable later.
+    // One that cannot be read, as in a folder that is not mounted, may be readable later.
+    std::fs::remove_dir_all(database.folder()).expect("removed");
+    std::fs::create_dir(database.folder()).expect("a folder");
+    let unread = store.checkpoint(&claim).await;
+    assert!(matches!(unread, Err(StoreError::Objects(_))), "{unread:?}");
     std::fs::remove_dir_all(database.folder()).expect("removed");
     std::fs::write(database.folder(), "").expect("a file in its place");
     let unread = store.checkpoint(&claim).await;
@@ -155,7 +160,9 @@ async fn an_object_that_is_being_written_is_not_removed(database: WithObjects) {
     database.store.note_checkpoint(key).await.expect("noted");
     let address = format!("file://{}", database.folder().display());
     let objects = Objects::open(&address).expect("opened");
-    objects.put(key, b"a state", &[]).await.expect("written");
+    objects.mark().await.expect("marked");
+    let state = b"a state".to_vec();
+    objects.put_whole(key, state).await.expect("written");
     database.moved().await;
     assert_eq!(database.objects().len(), 1);
 }
@@ -174,6 +181,38 @@ async fn a_checkpoint_whose_object_may_be_removed_is_in_the_database(database: W
     assert_eq!(found.expect("the store"), None::<CheckpointObject>);
     let claim = database.released(&claim).await;
     assert_eq!(claim.checkpoint, Some(ClaimedCheckpoint::Given(large(7))));
+}
+
+async fn nothing_is_written_to_a_store_of_objects_that_has_lost_its_mark(database: WithObjects) {
+    let claim = database.resumed(large(7)).await;
+    database.store.close().await;
+    let WithObjects { place, store } = database;
+    drop(store);
+    let folder = place.folder.path().join("objects");
+    std::fs::rename(&folder, place.folder.path().join("unmounted")).expect("renamed");
+    let store = Arc::new(opened(&place, Some("objects")).await.expect("a store"));
+    let database = WithObjects { place, store };
+    let update = JobUpdate {
+        number: 2,
+        ..update_with(large(9))
+    };
+    let length = Duration::from_hours(1);
+    let written = database.store.record(&claim, &update, length).await;
+    assert!(
+        matches!(written, Ok(LeaseState::Held { .. })),
+        "{written:?}"
+    );
+    assert_eq!(database.objects().len(), 0);
+    // The object of the earlier one is not removed, and nothing is forgotten.
+    let (_, ended) = database.store.move_results().await;
+    assert!(matches!(ended, Err(StoreError::Objects(_))), "{ended:?}");
+    std::fs::remove_dir(&folder).expect("nothing is in it");
+    std::fs::rename(database.place.folder.path().join("unmounted"), &folder).expect("renamed");
+    assert_eq!(database.objects().len(), 1);
+    database.moved().await;
+    assert_eq!(database.objects().len(), 0);
+    let claim = database.released(&claim).await;
+    assert_eq!(claim.checkpoint, Some(ClaimedCheckpoint::Given(large(9))));
 }
 
 async fn a_database_with_a_checkpoint_elsewhere_is_not_opened_without_it(database: WithObjects) {

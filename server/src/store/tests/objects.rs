@@ -36,7 +36,9 @@ impl WithObjects {
 
     /// Paths of all objects.
     pub(super) fn objects(&self) -> Vec<PathBuf> {
-        files_below(&self.place.folder.path().join("objects"))
+        let files = files_below(&self.place.folder.path().join("objects"));
+        let is_mark = |path: &PathBuf| path.ends_with("fretwear-objects");
+        files.into_iter().filter(|path| !is_mark(path)).collect()
     }
 
     /// A job that has ended with a document, a file, rows and snapshots.
