@@ -1,5 +1,7 @@
 //! Checkpoints in a store of objects.
 
+use sqlx::{Connection, PgConnection};
+
 use super::objects::{WithObjects, opened};
 use super::*;
 use crate::objects::Objects;
@@ -252,4 +254,50 @@ async fn a_missing_or_damaged_checkpoint_is_found() {
         found.len() == 1 && found[0].contains("does not exist"),
         "{found:?}"
     );
+}
+
+/// Its original names the same objects.
+#[tokio::test]
+#[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
+async fn a_copy_of_a_database_of_a_server_removes_no_objects_and_writes_no_checkpoints() {
+    let database = WithObjects::at(Place::postgres()).await;
+    let claim = database.resumed(large(7)).await;
+    database.store.close().await;
+    let WithObjects { place, store } = database;
+    drop(store);
+    let (address, options) = place.url.split_once('?').expect("the folder of its socket");
+    let (server, name) = address.rsplit_once('/').expect("a name");
+    let maintenance = format!("{server}/postgres?{options}");
+    let mut connection = PgConnection::connect(&maintenance).await.expect("a server");
+    let copied = format!("CREATE DATABASE {name}_copy TEMPLATE {name}");
+    sqlx::query(sqlx::AssertSqlSafe(copied))
+        .execute(&mut connection)
+        .await
+        .expect("a copy");
+    let copy = Place {
+        url: format!("{server}/{name}_copy?{options}"),
+        folder: place.folder,
+    };
+    // The original is opened again, and is none.
+    let original = Store::open_with(&place.url, &copy.files(), Limits::default()).await;
+    let address = format!("file://{}", copy.folder.path().join("objects").display());
+    let objects = || Some(Objects::open(&address).expect("opened"));
+    let original = original.expect("a store").with_objects(objects()).await;
+    let original = original.expect("a store");
+    assert!(original.removes_objects().await.expect("the store"));
+    let copy = WithObjects {
+        store: Arc::new(opened(&copy, Some("objects")).await.expect("a store")),
+        place: copy,
+    };
+    assert!(!copy.store.removes_objects().await.expect("the store"));
+    let update = JobUpdate {
+        number: 2,
+        ..update_with(large(9))
+    };
+    copy.store.record_next(&claim, &update).await;
+    copy.moved().await;
+    let found = original.checkpoint(&claim).await.expect("the store");
+    assert_eq!(found, Some(large(7)));
+    let claim = copy.released(&claim).await;
+    assert_eq!(claim.checkpoint, Some(ClaimedCheckpoint::Given(large(9))));
 }
