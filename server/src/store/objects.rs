@@ -51,13 +51,14 @@ impl Store {
     /// [`StoreError`], among others if it has lost the mark.
     pub(in crate::store) async fn check_mark(&self, objects: &Objects) -> Result<(), StoreError> {
         let check = async || {
-            if !objects.is_marked().await? {
-                if self.are_objects_marked().await? {
-                    return Err(ObjectsError::Unmarked(objects.location().to_owned()).into());
-                }
+            if !self.are_objects_marked().await? {
                 objects.mark().await?;
+                return self.note_mark_of_objects().await;
             }
-            self.note_mark_of_objects().await
+            if objects.is_marked().await? {
+                return Ok(());
+            }
+            Err(ObjectsError::Unmarked(objects.location().to_owned()).into())
         };
         self.local().objects_checked.get_or_try_init(check).await?;
         Ok(())
