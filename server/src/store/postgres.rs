@@ -10,6 +10,7 @@ mod checkpoints;
 mod claimed;
 pub(in crate::store) mod claims;
 mod compared;
+mod demand;
 mod events;
 mod expansions;
 mod files;
@@ -40,6 +41,7 @@ mod writes;
 
 use std::time::{Duration, Instant};
 
+use api::service::Demand;
 use sqlx::postgres::{PgConnection, PgPool};
 use sqlx::{Postgres, Transaction};
 use tokio::time::timeout;
@@ -62,6 +64,7 @@ pub(in crate::store) struct PostgresStore {
     readers: PgPool,
     claims: Groups<ClaimRequest, Result<Claimed, StoreError>>,
     writes: Writes,
+    demands: Groups<(), Option<Demand>>,
     /// The connection that asks for the lock of the process that moves results, and whether it holds it.
     mover: tokio::sync::Mutex<Option<(PgConnection, bool)>>,
     /// When the database was last written by [`PostgresStore::ready`].

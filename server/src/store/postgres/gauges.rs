@@ -2,42 +2,15 @@
 
 use std::time::Instant;
 
-use api::service::Demand;
-
 use crate::clock::Now;
 use crate::metrics::Gauges;
 use crate::store::StoreError;
-use crate::store::gauges::{
-    PROBE_INTERVAL, StatusRow, UNKNOWN_CPU_MS, by_status, progress_age_s, seconds,
-};
+use crate::store::gauges::{PROBE_INTERVAL, StatusRow, by_status, progress_age_s, seconds};
 use crate::store::postgres::PostgresStore;
 use crate::store::rows::integer;
 use crate::store::workers::present_from;
 
 impl PostgresStore {
-    pub(in crate::store) async fn demand(&self) -> Result<Demand, StoreError> {
-        let (queued, running, running_remotely, queued_cpu_ms): (i64, i64, i64, i64) =
-            sqlx::query_as(
-                "WITH to_come AS (SELECT COALESCE(sum(jobs - next), 0)::bigint AS jobs, \
-                 COALESCE(sum((jobs - next) * cpu_ms), 0)::bigint AS cpu_ms FROM expansions WHERE NOT is_over) \
-                 SELECT (SELECT count(*) FROM jobs WHERE status = 'queued') + to_come.jobs, \
-                 (SELECT count(*) FROM jobs WHERE status = 'running'), \
-                 (SELECT count(*) FROM jobs WHERE status = 'running' AND is_remote), \
-                 (SELECT COALESCE(sum(CASE WHEN cpu_ms > 0 THEN cpu_ms ELSE $1 END), 0)::bigint FROM jobs \
-                 WHERE status = 'queued') + to_come.cpu_ms FROM to_come",
-            )
-            .bind(UNKNOWN_CPU_MS)
-            .fetch_one(&self.readers)
-            .await?;
-        let count = |count: i64| count.try_into().unwrap_or_default();
-        Ok(Demand {
-            queued: count(queued),
-            running: count(running),
-            running_remotely: count(running_remotely),
-            queued_cpu_s: count((queued_cpu_ms + 999) / 1_000),
-        })
-    }
-
     pub(in crate::store) async fn gauges(&self) -> Result<Gauges, StoreError> {
         let mut connection = self.readers.acquire().await?;
         let Now {

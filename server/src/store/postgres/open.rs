@@ -90,6 +90,7 @@ impl PostgresStore {
             readers,
             claims: Groups::default(),
             writes: Groups::default(),
+            demands: Groups::default(),
             mover: tokio::sync::Mutex::default(),
             last_probe: tokio::sync::Mutex::default(),
             compared: tokio::sync::Mutex::default(),
