@@ -51,14 +51,19 @@ impl Store {
     /// [`StoreError`], among others if it has lost the mark.
     pub(in crate::store) async fn check_mark(&self, objects: &Objects) -> Result<(), StoreError> {
         let check = async || {
-            if !self.are_objects_marked().await? {
+            let address = objects.location();
+            if !self.are_objects_marked(address).await? {
+                // An earlier version has written objects without a mark: they show that it is the store.
+                if let Some(key) = self.any_object().await? {
+                    objects.get(&key, 0..1).await?;
+                }
                 objects.mark().await?;
-                return self.note_mark_of_objects().await;
+                return self.note_mark_of_objects(address).await;
             }
             if objects.is_marked().await? {
                 return Ok(());
             }
-            Err(ObjectsError::Unmarked(objects.location().to_owned()).into())
+            Err(ObjectsError::Unmarked(address.to_owned()).into())
         };
         self.local().objects_checked.get_or_try_init(check).await?;
         Ok(())
@@ -105,7 +110,7 @@ impl Store {
     }
 
     /// Writes the objects of a limited number of jobs.
-    async fn write_objects(
+    pub(in crate::store) async fn write_objects(
         &self,
         objects: &Objects,
     ) -> Result<Vec<Result<Option<Moved>, StoreError>>, StoreError> {

@@ -39,11 +39,14 @@ operations! {
     /// Whether objects that no job names any more are removed: not by a copy of a database, whose original names them, too.
     pub(in crate::store) async fn removes_objects(&self) -> Result<bool, StoreError>;
 
-    /// Whether the store of objects has got its mark.
-    pub(in crate::store) async fn are_objects_marked(&self) -> Result<bool, StoreError>;
+    /// Whether the store of objects at an address has got its mark.
+    pub(in crate::store) async fn are_objects_marked(&self, address: &str) -> Result<bool, StoreError>;
 
     /// Notes that it has.
-    pub(in crate::store) async fn note_mark_of_objects(&self) -> Result<(), StoreError>;
+    pub(in crate::store) async fn note_mark_of_objects(&self, address: &str) -> Result<(), StoreError>;
+
+    /// Key of an object with the results of a job.
+    pub(in crate::store) async fn any_object(&self) -> Result<Option<String>, StoreError>;
 
     /// Whether it is this process that moves results.
     pub(in crate::store) async fn moves_results(&self) -> Result<bool, StoreError>;

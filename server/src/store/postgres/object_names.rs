@@ -85,14 +85,15 @@ async fn forget(
     Ok(noted.into_iter().collect())
 }
 
-/// Notes objects that get no names.
+/// Notes objects that get no names; not those that have got theirs before, by a transaction whose answer was lost.
 async fn note(connection: &mut PgConnection, moved: &[&Moved]) -> Result<(), StoreError> {
     if moved.is_empty() {
         return Ok(());
     }
     let keys: Vec<_> = moved.iter().map(|results| results.key.as_str()).collect();
     sqlx::query(
-        "INSERT INTO unnamed_objects (key) SELECT * FROM unnest($1::text[]) ON CONFLICT DO NOTHING",
+        "INSERT INTO unnamed_objects (key) SELECT key FROM unnest($1::text[]) AS given (key) \
+         WHERE NOT EXISTS (SELECT 1 FROM result_blocks WHERE object = given.key) ON CONFLICT DO NOTHING",
     )
     .bind(keys)
     .execute(connection)

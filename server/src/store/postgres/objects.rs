@@ -63,17 +63,33 @@ impl PostgresStore {
         Ok(removes.fetch_one(&self.pool).await?)
     }
 
-    pub(in crate::store) async fn are_objects_marked(&self) -> Result<bool, StoreError> {
-        let marked =
-            sqlx::query_scalar("SELECT EXISTS (SELECT 1 FROM object_store WHERE is_marked)");
-        Ok(marked.fetch_one(&self.pool).await?)
+    pub(in crate::store) async fn are_objects_marked(
+        &self,
+        address: &str,
+    ) -> Result<bool, StoreError> {
+        let marked = sqlx::query_scalar(
+            "SELECT EXISTS (SELECT 1 FROM object_store WHERE is_marked AND address = $1)",
+        );
+        Ok(marked.bind(address).fetch_one(&self.pool).await?)
     }
 
-    pub(in crate::store) async fn note_mark_of_objects(&self) -> Result<(), StoreError> {
-        sqlx::query("UPDATE object_store SET is_marked = true WHERE NOT is_marked")
-            .execute(&self.pool)
-            .await?;
+    pub(in crate::store) async fn note_mark_of_objects(
+        &self,
+        address: &str,
+    ) -> Result<(), StoreError> {
+        sqlx::query(
+            "UPDATE object_store SET is_marked = true WHERE NOT is_marked AND address = $1",
+        )
+        .bind(address)
+        .execute(&self.pool)
+        .await?;
         Ok(())
+    }
+
+    pub(in crate::store) async fn any_object(&self) -> Result<Option<String>, StoreError> {
+        let key =
+            sqlx::query_scalar("SELECT object FROM result_blocks WHERE object IS NOT NULL LIMIT 1");
+        Ok(key.fetch_optional(&self.pool).await?)
     }
 
     /// The process that holds a lock moves results, as long as its connection lives. Another one may take over while this one still
@@ -133,7 +149,9 @@ impl PostgresStore {
     ) -> Result<Vec<String>, StoreError> {
         let keys = sqlx::query_scalar(
             "UPDATE unnamed_objects SET is_removing = true WHERE key IN \
-             (SELECT key FROM unnamed_objects WHERE noted_at <= fretwear_now() - $1 LIMIT $2) RETURNING key",
+             (SELECT key FROM unnamed_objects WHERE noted_at <= fretwear_now() - $1 \
+             AND NOT EXISTS (SELECT 1 FROM result_blocks WHERE object = key) \
+             AND NOT EXISTS (SELECT 1 FROM checkpoints WHERE object = key) LIMIT $2) RETURNING key",
         )
         .bind(REMOVED_AFTER_MS)
         .bind(most);

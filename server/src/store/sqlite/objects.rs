@@ -56,17 +56,31 @@ impl SqliteStore {
         Ok(removes.fetch_one(&self.writer).await?)
     }
 
-    pub(in crate::store) async fn are_objects_marked(&self) -> Result<bool, StoreError> {
-        let marked =
-            sqlx::query_scalar("SELECT EXISTS (SELECT 1 FROM object_store WHERE is_marked)");
-        Ok(marked.fetch_one(&self.writer).await?)
+    pub(in crate::store) async fn are_objects_marked(
+        &self,
+        address: &str,
+    ) -> Result<bool, StoreError> {
+        let marked = sqlx::query_scalar(
+            "SELECT EXISTS (SELECT 1 FROM object_store WHERE is_marked AND address = ?)",
+        );
+        Ok(marked.bind(address).fetch_one(&self.writer).await?)
     }
 
-    pub(in crate::store) async fn note_mark_of_objects(&self) -> Result<(), StoreError> {
-        sqlx::query("UPDATE object_store SET is_marked = 1 WHERE NOT is_marked")
+    pub(in crate::store) async fn note_mark_of_objects(
+        &self,
+        address: &str,
+    ) -> Result<(), StoreError> {
+        sqlx::query("UPDATE object_store SET is_marked = 1 WHERE NOT is_marked AND address = ?")
+            .bind(address)
             .execute(&self.writer)
             .await?;
         Ok(())
+    }
+
+    pub(in crate::store) async fn any_object(&self) -> Result<Option<String>, StoreError> {
+        let key =
+            sqlx::query_scalar("SELECT object FROM result_blocks WHERE object IS NOT NULL LIMIT 1");
+        Ok(key.fetch_optional(&self.writer).await?)
     }
 
     #[expect(
@@ -106,7 +120,10 @@ impl SqliteStore {
         most: i64,
     ) -> Result<Vec<String>, StoreError> {
         let keys =
-            sqlx::query_scalar("SELECT key FROM unnamed_objects WHERE noted_at <= ? LIMIT ?")
+            sqlx::query_scalar(
+                "SELECT key FROM unnamed_objects WHERE noted_at <= ? AND NOT EXISTS (SELECT 1 FROM result_blocks WHERE object = key) \
+                 AND NOT EXISTS (SELECT 1 FROM checkpoints WHERE object = key) LIMIT ?",
+            )
                 .bind(monotonic_ms() - REMOVED_AFTER_MS)
                 .bind(most);
         Ok(keys.fetch_all(&self.readers).await?)
