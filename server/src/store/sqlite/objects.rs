@@ -178,8 +178,9 @@ async fn name_object(
     transaction: &mut Transaction<'_, Sqlite>,
     moved: &Moved,
 ) -> Result<bool, StoreError> {
+    // Behind the other rows they share pages, where the page of the content would be left half empty.
     let updated = sqlx::query(
-        "UPDATE result_blocks SET content = x'', object = ?, content_bytes = ?, entries = ?, documents = ? \
+        "UPDATE result_blocks SET rowid = (SELECT max(rowid) + 1 FROM result_blocks), content = x'', object = ?, content_bytes = ?, entries = ?, documents = ? \
          WHERE job_id = ? AND entries = ? AND is_movable = 1 AND object IS NULL",
     )
     .bind(&moved.key)
