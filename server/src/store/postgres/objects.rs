@@ -175,13 +175,23 @@ impl PostgresStore {
     }
 }
 
-/// What a database has that its copies do not: the server that it was made on, and its number there. A standby that is promoted keeps
-/// both.
+/// What a database has that its copies do not: the server that it was made on, where its role may read that, and its number there. A standby
+/// that is promoted keeps both.
 async fn identity(connection: &mut PgConnection) -> Result<String, StoreError> {
-    let identity = sqlx::query_scalar(
-        "SELECT system_identifier || '/' || oid FROM pg_control_system(), pg_database WHERE datname = current_database()",
-    );
-    Ok(identity.fetch_one(connection).await?)
+    let (number, may_read): (String, bool) = sqlx::query_as(
+        "SELECT oid::text, has_function_privilege('pg_catalog.pg_control_system()', 'EXECUTE') \
+         FROM pg_database WHERE datname = current_database()",
+    )
+    .fetch_one(&mut *connection)
+    .await?;
+    if !may_read {
+        return Ok(number);
+    }
+    let server: String =
+        sqlx::query_scalar("SELECT system_identifier::text FROM pg_control_system()")
+            .fetch_one(connection)
+            .await?;
+    Ok(format!("{server}/{number}"))
 }
 
 /// A connection if it still answers.
