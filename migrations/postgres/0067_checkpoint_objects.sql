@@ -2,7 +2,7 @@
 ALTER TABLE checkpoints ADD COLUMN object text;
 CREATE UNIQUE INDEX checkpoints_by_object ON checkpoints (object) WHERE object IS NOT NULL;
 
--- When the key of the object of a checkpoint was noted, ms of the system's clock: while it is being written it must not be removed. 0 for others.
+-- When the key of the object of a checkpoint was noted, ms of the database's clock: while it is being written it must not be removed. 0 for others.
 ALTER TABLE unnamed_objects ADD COLUMN noted_at bigint NOT NULL DEFAULT 0;
 
 CREATE TRIGGER checkpoints_leave_their_objects AFTER DELETE ON checkpoints

@@ -138,7 +138,7 @@ async fn the_database_keeps_little_of_a_job_whose_results_were_moved() {
     let objects = format!("file://{}", folder.path().join("objects").display());
     let server = Server::start_with(folder.path(), &["--objects", &objects]);
     let empty = pages(folder.path()).await;
-    // A page more or less is a page of all jobs.
+    // So many that one page more is a small part of the limit.
     let jobs = 20;
     for _ in 0..jobs {
         solved(&server, r#"{"system":{"kind":"sd_card"}}"#).await;

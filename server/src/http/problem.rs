@@ -127,6 +127,10 @@ impl From<StoreError> for ProblemResponse {
                 tracing::error!(%cause, "results are missing");
                 return ProblemType::RESULT_DAMAGED.with_detail(cause.to_string());
             }
+            StoreError::Objects(ObjectsError::Unmarked(_)) => ProblemType::RESULTS_UNREACHABLE
+                .with_detail(
+                    "the store of objects has lost its mark: it is another one, or is not mounted",
+                ),
             StoreError::Objects(_) => ProblemType::RESULTS_UNREACHABLE
                 .with_detail("the store of objects does not answer; send the request again"),
             error if error.is_transient() => {

@@ -20,7 +20,6 @@ use crate::estimate::machine::CalibrationCache;
 use crate::export::documents::{CSV, JSON, VTU};
 use crate::export::files;
 use crate::http::{Access, App, MAX_REQUESTS, openapi, router};
-use crate::objects::Objects;
 use crate::queue::Transition;
 use crate::store;
 use crate::store::{End, JobUpdate, NewFile, Store};
@@ -31,31 +30,13 @@ pub(crate) struct Service {
     folder: TempDir,
 }
 
-/// A new database in a folder.
-async fn opened(folder: &TempDir) -> Store {
-    let url = format!("sqlite://{}", folder.path().join("test.db").display());
-    Store::open(&url).await.expect("a store")
-}
-
 impl Service {
     pub(crate) async fn new() -> Self {
         let folder = TempDir::new().expect("a temporary folder");
-        let store = opened(&folder).await;
-        Self::of(store, folder)
-    }
-
-    /// With a store of objects in a folder.
-    pub(crate) async fn with_objects() -> Self {
-        let folder = TempDir::new().expect("a temporary folder");
-        let address = format!("file://{}", folder.path().join("objects").display());
-        let objects = Objects::open(&address).expect("opened");
-        let store = opened(&folder).await.with_objects(Some(objects)).await;
-        Self::of(store.expect("a store"), folder)
-    }
-
-    fn of(store: Store, folder: TempDir) -> Self {
+        let url = format!("sqlite://{}", folder.path().join("test.db").display());
+        let store = Arc::new(Store::open(&url).await.expect("a store"));
         let mut app = App::new(
-            Arc::new(store),
+            store,
             Access::default(),
             (CancellationToken::new(), Arc::default()),
             openapi::document(),

@@ -39,6 +39,7 @@ mod checkpoints;
 mod columns;
 mod files;
 mod leases;
+mod object_names;
 mod objects;
 mod order;
 mod roles;

@@ -40,7 +40,7 @@ impl EmployerError {
                     | StoreError::NoAnswer(_)
                     | StoreError::Unwritten
                     | StoreError::Objects(_)
-                    // Of another service of the database.
+                    // Another service of the same database may have one.
                     | StoreError::NoObjects
             ),
             // As the store's own errors: a finished solve waits for a service that fails.

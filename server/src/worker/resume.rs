@@ -24,7 +24,7 @@ pub(super) enum Start<'a> {
     LeaseLost,
 }
 
-/// Gets the checkpoint of a job, and waits for a store of objects that does not answer. A run whose checkpoint is damaged starts at cycle 0.
+/// How an attempt starts: from its checkpoint if it has one.
 ///
 /// # Errors
 /// [`EmployerError`] if the employer fails for good.
@@ -33,25 +33,31 @@ pub(super) async fn start_of<'a, E: Employer>(
     buffer: &mut UpdateBuffer,
     (deadline, stopping): (Option<Instant>, &CancellationToken),
 ) -> Result<Start<'a>, EmployerError> {
+    if stopping.is_cancelled() {
+        return Ok(stopped());
+    }
+    match &attempt.claim.checkpoint {
+        None => Ok(Start::From(None)),
+        Some(ClaimedCheckpoint::Given(checkpoint)) => {
+            Ok(Start::From(Some(Cow::Borrowed(checkpoint))))
+        }
+        Some(ClaimedCheckpoint::Stored { .. }) => {
+            stored(attempt, buffer, (deadline, stopping)).await
+        }
+    }
+}
+
+/// Asks for the checkpoint, and waits for a store of objects that does not answer. A run whose checkpoint is damaged starts at cycle 0.
+async fn stored<'a, E: Employer>(
+    attempt: Attempt<'a, E>,
+    buffer: &mut UpdateBuffer,
+    (deadline, stopping): (Option<Instant>, &CancellationToken),
+) -> Result<Start<'a>, EmployerError> {
     let (employer, lease) = (attempt.employer, attempt.lease());
     loop {
-        if stopping.is_cancelled() {
-            let end = End::without_result(Transition::Release, STOPPED);
-            return Ok(Start::Never(Box::new(end)));
-        }
-        if deadline.is_some_and(|at| Instant::now() >= at) {
-            return Ok(Start::Never(Box::new(deadline_passed())));
-        }
-        match &attempt.claim.checkpoint {
-            None => return Ok(Start::From(None)),
-            Some(ClaimedCheckpoint::Given(checkpoint)) => {
-                return Ok(Start::From(Some(Cow::Borrowed(checkpoint))));
-            }
-            Some(ClaimedCheckpoint::Stored { .. }) => {}
-        }
         let answer = tokio::select! {
             answer = employer.checkpoint(lease) => answer,
-            () = stopping.cancelled() => continue,
+            () = stopping.cancelled() => return Ok(stopped()),
         };
         match answer {
             Ok(Some(checkpoint)) => return Ok(Start::From(Some(Cow::Owned(checkpoint)))),
@@ -61,6 +67,9 @@ pub(super) async fn start_of<'a, E: Employer>(
             }
             Err(error) => return Err(error),
         }
+        if deadline.is_some_and(|at| Instant::now() >= at) {
+            return Ok(Start::Never(Box::new(deadline_passed())));
+        }
         match employer.lease_state(lease).await {
             Ok(LeaseState::Held {
                 cancel_requested: true,
@@ -69,7 +78,7 @@ pub(super) async fn start_of<'a, E: Employer>(
             Ok(LeaseState::Held { .. }) | Err(_) => {}
         }
         tokio::select! {
-            () = stopping.cancelled() => {}
+            () = stopping.cancelled() => return Ok(stopped()),
             () = tokio::time::sleep(RETRY_PAUSE) => {}
         }
     }
@@ -79,4 +88,10 @@ pub(super) async fn start_of<'a, E: Employer>(
         LeaseState::Held { .. } => Start::From(None),
         LeaseState::Lost => Start::LeaseLost,
     })
+}
+
+/// That of a worker that is asked to stop.
+fn stopped<'a>() -> Start<'a> {
+    let end = End::without_result(Transition::Release, STOPPED);
+    Start::Never(Box::new(end))
 }

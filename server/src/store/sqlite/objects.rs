@@ -119,13 +119,13 @@ impl SqliteStore {
         &self,
         most: i64,
     ) -> Result<Vec<String>, StoreError> {
-        let keys =
-            sqlx::query_scalar(
-                "SELECT key FROM unnamed_objects WHERE noted_at <= ? AND NOT EXISTS (SELECT 1 FROM result_blocks WHERE object = key) \
+        let keys = sqlx::query_scalar(
+            "SELECT key FROM unnamed_objects WHERE noted_at <= ? \
+                 AND NOT EXISTS (SELECT 1 FROM result_blocks WHERE object = key) \
                  AND NOT EXISTS (SELECT 1 FROM checkpoints WHERE object = key) LIMIT ?",
-            )
-                .bind(monotonic_ms() - REMOVED_AFTER_MS)
-                .bind(most);
+        )
+        .bind(monotonic_ms() - REMOVED_AFTER_MS)
+        .bind(most);
         Ok(keys.fetch_all(&self.readers).await?)
     }
 
@@ -178,9 +178,10 @@ async fn name_object(
     transaction: &mut Transaction<'_, Sqlite>,
     moved: &Moved,
 ) -> Result<bool, StoreError> {
-    // Behind the other rows they share pages, where the page of the content would be left half empty.
+    // Behind the other rows, short ones share a page; where the content was, a page would stay half empty.
     let updated = sqlx::query(
-        "UPDATE result_blocks SET rowid = (SELECT max(rowid) + 1 FROM result_blocks), content = x'', object = ?, content_bytes = ?, entries = ?, documents = ? \
+        "UPDATE result_blocks SET rowid = (SELECT max(rowid) + 1 FROM result_blocks), content = x'', object = ?, \
+         content_bytes = ?, entries = ?, documents = ? \
          WHERE job_id = ? AND entries = ? AND is_movable = 1 AND object IS NULL",
     )
     .bind(&moved.key)

@@ -19,8 +19,6 @@ on_both_engines! { WithObjects:
     a_job_with_a_damaged_file_keeps_its_results_and_others_are_moved,
     a_database_whose_results_are_elsewhere_is_not_opened_without_them,
     an_object_that_cannot_be_removed_stops_nothing,
-    objects_that_are_named_twice_stay,
-    an_earlier_store_is_marked_if_it_has_the_objects,
 }
 
 /// A database whose results are moved into a folder of objects.
@@ -44,7 +42,7 @@ impl WithObjects {
     }
 
     /// A job that has ended with a document, a file, rows and snapshots.
-    async fn ended(&self, transition: Transition) -> Uuid {
+    pub(super) async fn ended(&self, transition: Transition) -> Uuid {
         let spec = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
         let plan = crate::estimate::Estimate::of(&spec).plan(&spec, None);
         let job = NewJob {
@@ -87,7 +85,7 @@ impl WithObjects {
         moved
     }
 
-    async fn read(&self, id: Uuid, name: &str) -> Result<Vec<u8>, StoreError> {
+    pub(super) async fn read(&self, id: Uuid, name: &str) -> Result<Vec<u8>, StoreError> {
         let found = self.store.result_file(id, name).await?;
         let (_, content) = found.expect("a file");
         Ok(content.read().await.expect("it can be read"))
@@ -287,58 +285,6 @@ async fn an_object_that_cannot_be_removed_stops_nothing(database: WithObjects) {
     let (moved, ended) = database.store.move_results().await;
     assert_eq!(moved, [id]);
     assert!(matches!(ended, Err(StoreError::Objects(_))), "{ended:?}");
-}
-
-/// As after a transaction that was committed and whose answer was lost.
-async fn objects_that_are_named_twice_stay(database: WithObjects) {
-    let store = &database.store;
-    let ids = [
-        database.ended(Transition::Succeed).await,
-        database.ended(Transition::Succeed).await,
-    ];
-    let objects = store.local().objects.as_ref().expect("objects");
-    let written = store.write_objects(objects).await.expect("written");
-    let written = written.into_iter().map(|moved| moved.expect("written"));
-    let moved: Vec<_> = written.flatten().collect();
-    let mut named = store.name_objects(&moved).await.expect("named");
-    named.sort_unstable();
-    assert_eq!(named, ids);
-    let again = store.name_objects(&moved).await.expect("known");
-    assert_eq!(again, Vec::<Uuid>::new());
-    database.moved().await;
-    assert_eq!(database.objects().len(), 2);
-    for id in ids {
-        assert_eq!(database.read(id, "b.csv").await.expect("read"), b"cycle");
-    }
-}
-
-/// One that was filled before there were marks, and a folder that is not mounted then.
-async fn an_earlier_store_is_marked_if_it_has_the_objects(database: WithObjects) {
-    let id = database.ended(Transition::Succeed).await;
-    database.moved().await;
-    let folder = database.place.folder.path().join("objects");
-    let address = format!("file://{}", folder.display());
-    // Its mark is forgotten with its address.
-    for address in ["file:///other", &address] {
-        let noted = database.store.note_address_of_objects(address).await;
-        noted.expect("the store");
-    }
-    database.store.close().await;
-    let WithObjects { place, store } = database;
-    drop(store);
-    std::fs::remove_file(folder.join("fretwear-objects")).expect("removed");
-    let unmounted = place.folder.path().join("unmounted");
-    std::fs::rename(&folder, &unmounted).expect("renamed");
-    let store = Arc::new(opened(&place, Some("objects")).await.expect("a store"));
-    let database = WithObjects { place, store };
-    database.ended(Transition::Succeed).await;
-    let (moved, ended) = database.store.move_results().await;
-    assert!(moved.is_empty() && matches!(ended, Err(StoreError::Objects(_))));
-    std::fs::remove_dir(&folder).expect("nothing is in it");
-    std::fs::rename(&unmounted, &folder).expect("renamed");
-    assert_eq!(database.moved().await.len(), 1);
-    assert!(folder.join("fretwear-objects").exists());
-    assert_eq!(database.read(id, "b.csv").await.expect("read"), b"cycle");
 }
 
 /// The backup's copy of the database has files that are moved before they are copied.

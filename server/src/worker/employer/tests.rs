@@ -1,5 +1,7 @@
 //! One suite for every employer: the store itself, and a service over HTTP.
 
+mod stored_checkpoint;
+
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -32,7 +34,7 @@ macro_rules! with_both {
             $(
                 #[tokio::test]
                 async fn $name() {
-                    let service = super::Service::with_objects().await;
+                    let service = super::Service::new().await;
                     super::$suite(&*service.app.store, &service).await;
                 }
             )+
@@ -42,7 +44,7 @@ macro_rules! with_both {
             $(
                 #[tokio::test]
                 async fn $name() {
-                    let service = super::Service::with_objects().await;
+                    let service = super::Service::new().await;
                     let (remote, _scratch, _stop) = super::remote(&service).await;
                     super::$suite(&remote, &service).await;
                 }
@@ -54,7 +56,6 @@ macro_rules! with_both {
 with_both! {
     a_repeated_claim_gets_the_same_job_and_costs_no_attempt => repeated_claim;
     a_repeated_update_is_recorded_once => repeated_update;
-    a_large_checkpoint_is_asked_for => stored_checkpoint;
     results_of_a_finished_job_are_those_that_its_worker_has_sent => finished;
     documents_that_a_worker_has_made_are_those_of_its_job => documented;
     a_worker_learns_of_a_cancel_request => cancelled;
@@ -165,36 +166,6 @@ async fn repeated_update(employer: &impl Employer, service: &Service) {
         state: vec![0, 255, 7],
     });
     assert_eq!(claimed(employer).await.checkpoint, Some(given));
-}
-
-async fn stored_checkpoint(employer: &impl Employer, service: &Service) {
-    queued(service).await;
-    let lease = Lease::from(&claimed(employer).await);
-    let checkpoint = EncodedCheckpoint {
-        cycle: 5,
-        state: (0..=255).cycle().take(1 << 17).collect(),
-    };
-    let large = JobUpdate {
-        checkpoint: Some(checkpoint.clone()),
-        ..update(1, 5)
-    };
-    let recorded = employer.record(lease, &large, LENGTH).await;
-    assert_eq!(recorded.expect("an answer"), HELD);
-    let release = JobUpdate {
-        number: 2,
-        ..JobUpdate::default()
-    };
-    let ended = employer
-        .finish(lease, &release, &end(Transition::Release))
-        .await;
-    assert_eq!(ended.expect("an answer"), Some(Status::Queued));
-    let claim = claimed(employer).await;
-    let stored = ClaimedCheckpoint::Stored { cycle: 5 };
-    assert_eq!(claim.checkpoint, Some(stored));
-    let lost = employer.checkpoint(lease).await.expect("an answer");
-    assert_eq!(lost, None);
-    let found = employer.checkpoint(Lease::from(&claim)).await;
-    assert_eq!(found.expect("an answer"), Some(checkpoint));
 }
 
 async fn finished(employer: &impl Employer, service: &Service) {

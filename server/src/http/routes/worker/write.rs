@@ -44,14 +44,12 @@ async fn answers(store: &Arc<Store>, writes: Vec<Write>, longest: Duration) -> V
         job.push((number, write));
     }
     let until = (jobs.len() > 1).then(|| Instant::now() + longest);
-    // Those of a panic, too.
-    let unanswered = match until {
-        Some(_) => WriteAnswer::Pending,
-        None => WriteAnswer::Problem(
-            ProblemType::INTERNAL
-                .with_detail("it was interrupted")
-                .document(),
-        ),
+    // Also after a panic; then it has no answer alone either.
+    let unanswered = if until.is_some() {
+        WriteAnswer::Pending
+    } else {
+        let problem = ProblemType::INTERNAL.with_detail("the write was interrupted");
+        WriteAnswer::Problem(problem.document())
     };
     // In tasks of their own: who watches a job learns of a change also if the worker has gone meanwhile.
     let tasks: Vec<_> = jobs
@@ -59,17 +57,12 @@ async fn answers(store: &Arc<Store>, writes: Vec<Write>, longest: Duration) -> V
         .map(|writes| tokio::spawn(one_after_the_other(Arc::clone(store), writes)))
         .collect();
     let done = tasks.into_iter().map(async |task| match until {
-        Some(until) => timeout_at(until, task).await.ok(),
-        None => Some(task.await),
+        Some(until) => timeout_at(until, task).await.ok()?.ok(),
+        None => task.await.ok(),
     });
     let mut answers = vec![unanswered; count];
-    for (number, answer) in join_all(done)
-        .await
-        .into_iter()
-        .flatten()
-        .flatten()
-        .flatten()
-    {
+    let done = join_all(done).await.into_iter().flatten();
+    for (number, answer) in done.flatten() {
         answers[number] = answer;
     }
     answers

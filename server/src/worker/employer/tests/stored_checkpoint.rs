@@ -1,0 +1,61 @@
+//! A checkpoint that does not come with its claim, with the store and over HTTP.
+
+use super::*;
+use crate::objects::Objects;
+use crate::store::Store;
+
+/// A service whose large checkpoints are objects in a folder.
+async fn service_with_objects() -> (Service, TempDir) {
+    let folder = TempDir::new().expect("a folder");
+    let url = format!("sqlite://{}", folder.path().join("objects.db").display());
+    let address = format!("file://{}", folder.path().join("objects").display());
+    let objects = Objects::open(&address).expect("opened");
+    let store = Store::open(&url).await.expect("a store");
+    let store = store.with_objects(Some(objects)).await;
+    let mut service = Service::new().await;
+    service.app.store = Arc::new(store.expect("a store"));
+    (service, folder)
+}
+
+#[tokio::test]
+async fn the_store_is_asked_for_it() {
+    let (service, _folder) = service_with_objects().await;
+    is_asked_for(&*service.app.store, &service).await;
+}
+
+#[tokio::test]
+async fn a_service_is_asked_for_it() {
+    let (service, _folder) = service_with_objects().await;
+    let (remote, _scratch, _stop) = remote(&service).await;
+    is_asked_for(&remote, &service).await;
+}
+
+async fn is_asked_for(employer: &impl Employer, service: &Service) {
+    queued(service).await;
+    let lease = Lease::from(&claimed(employer).await);
+    let checkpoint = EncodedCheckpoint {
+        cycle: 5,
+        state: (0..=255).cycle().take(1 << 17).collect(),
+    };
+    let large = JobUpdate {
+        checkpoint: Some(checkpoint.clone()),
+        ..update(1, 5)
+    };
+    let recorded = employer.record(lease, &large, LENGTH).await;
+    assert_eq!(recorded.expect("an answer"), HELD);
+    let release = JobUpdate {
+        number: 2,
+        ..JobUpdate::default()
+    };
+    let ended = employer
+        .finish(lease, &release, &end(Transition::Release))
+        .await;
+    assert_eq!(ended.expect("an answer"), Some(Status::Queued));
+    let claim = claimed(employer).await;
+    let stored = ClaimedCheckpoint::Stored { cycle: 5 };
+    assert_eq!(claim.checkpoint, Some(stored));
+    let lost = employer.checkpoint(lease).await.expect("an answer");
+    assert_eq!(lost, None);
+    let found = employer.checkpoint(Lease::from(&claim)).await;
+    assert_eq!(found.expect("an answer"), Some(checkpoint));
+}
