@@ -61,7 +61,9 @@ async fn a_job_is_answered_as_by_a_service_on_a_file() {
         let id = submitted(&server, with_fields().to_string()).await;
         let job = ended(&server, &id).await;
         assert_eq!(job["status"], "succeeded", "{job}");
-        let events = bits::events(&server, &id, "cycle").await.len();
+        // How many cycles share an event depends on the time that they take.
+        let events = bits::events(&server, &id, "cycle").await;
+        let last_cycle = events.last().expect("an event")["cycle"].clone();
         let (_, list) = server
             .get("/v1/jobs?label=lot:7&text=FIEL&sort=wear&view=short")
             .await;
@@ -71,7 +73,7 @@ async fn a_job_is_answered_as_by_a_service_on_a_file() {
         found.push((
             comparable(job),
             bits::of(&server, &id).await,
-            (events, figures, labels),
+            (last_cycle, figures, labels),
         ));
         assert_eq!(server.get("/readyz").await.0, 200);
         assert_eq!(server.post(&format!("/v1/jobs/{id}/cancel")).await.0, 202);
