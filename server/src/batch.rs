@@ -160,28 +160,41 @@ pub fn rows(jobs: &[BatchJob]) -> Result<Vec<u8>, EvaluateError> {
     sweep::table::rows(jobs)
 }
 
-/// Returns the jobs of a batch at these positions, made from its request.
-///
-/// # Errors
-/// [`ExpandError`] if the request cannot be read.
-pub fn portion(
+/// What the jobs of a batch that are queued later are made from.
+#[derive(Debug)]
+pub struct Expandable {
     batch: Uuid,
-    request: &str,
-    positions: Range<u64>,
-    machine: Option<&MachineFigures>,
-    accept: &Accept<'_>,
-) -> Result<Portion, ExpandError> {
-    let request = serde_json::from_str(request)?;
-    let (jobs, refused) = sweep::portion::jobs(&request, positions.clone(), accept);
-    let jobs = jobs.into_iter();
-    Ok(Portion {
-        batch,
-        positions,
-        jobs: jobs
-            .map(|(position, variation)| job(position, variation, machine))
-            .collect(),
-        refused,
-    })
+    request: SweepRequest,
+}
+
+impl Expandable {
+    /// Reads what a batch has stored.
+    ///
+    /// # Errors
+    /// [`ExpandError`] if it cannot be read.
+    pub fn read(batch: Uuid, request: &str) -> Result<Self, ExpandError> {
+        let request = serde_json::from_str(request)?;
+        Ok(Self { batch, request })
+    }
+
+    /// Returns the jobs at these positions.
+    pub fn portion(
+        &self,
+        positions: Range<u64>,
+        machine: Option<&MachineFigures>,
+        accept: &Accept<'_>,
+    ) -> Portion {
+        let (jobs, refused) = sweep::portion::jobs(&self.request, positions.clone(), accept);
+        let jobs = jobs.into_iter();
+        Portion {
+            batch: self.batch,
+            positions,
+            jobs: jobs
+                .map(|(position, variation)| job(position, variation, machine))
+                .collect(),
+            refused,
+        }
+    }
 }
 
 /// The jobs of a sweep after the first ones.

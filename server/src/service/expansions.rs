@@ -6,19 +6,23 @@ use std::sync::Arc;
 use std::thread::available_parallelism;
 use std::time::Duration;
 
+use futures_util::{StreamExt, stream};
 use tokio::task::JoinError;
 use tokio_util::sync::CancellationToken;
 
-use crate::batch;
-use crate::batch::ExpandError;
+use crate::batch::{ExpandError, Expandable};
 use crate::estimate::machine::CalibrationCache;
 use crate::http::check_limits;
-use crate::store::{Expansion, Portion, Store, StoreError};
+use crate::store::{Expansion, Store, StoreError};
 
 /// Pause after a round that has queued nothing.
 const PAUSE: Duration = Duration::from_secs(1);
+/// Pause after another service has queued the jobs that this one had made, too: it takes over if that one ends. Arbitrary.
+const PAUSE_BEHIND: Duration = Duration::from_secs(5);
 /// Jobs that a transaction queues; bounds how long other writes wait.
 const PORTION: u64 = 128;
+/// Jobs of a sweep in a round: its request, which may have a megabyte, is read once for them. Arbitrary.
+const ROUND: u64 = 16 * PORTION;
 
 /// Why no jobs could be queued.
 #[derive(Debug, thiserror::Error)]
@@ -31,6 +35,17 @@ enum QueueError {
     Task(#[from] JoinError),
 }
 
+/// What a round has done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Done {
+    /// No sweep needed jobs.
+    Nothing,
+    /// Another service queues them, or the sweep was cancelled.
+    Behind,
+    /// It has queued some.
+    Queued,
+}
+
 /// Runs until the service stops: keeps so many jobs of each sweep in the queue. Several services may do so on one database; of two that
 /// have made the same jobs, one queues them, and the other one pauses.
 pub(super) async fn queue_ahead(
@@ -41,14 +56,16 @@ pub(super) async fn queue_ahead(
 ) {
     loop {
         let round = async {
-            match round(&store, &machine, ahead).await {
-                Ok(true) => {}
-                Ok(false) => tokio::time::sleep(PAUSE).await,
+            let pause = match round(&store, &machine, ahead).await {
+                Ok(Done::Queued) => return,
+                Ok(Done::Behind) => PAUSE_BEHIND,
+                Ok(Done::Nothing) => PAUSE,
                 Err(error) => {
                     tracing::error!(%error, "the sweeps with jobs to be queued could not be read");
-                    tokio::time::sleep(PAUSE).await;
+                    PAUSE
                 }
-            }
+            };
+            tokio::time::sleep(pause).await;
         };
         tokio::select! {
             () = stopping.cancelled() => return,
@@ -57,77 +74,59 @@ pub(super) async fn queue_ahead(
     }
 }
 
-/// Queues a portion of each sweep of which fewer jobs wait; returns whether there was one. One that fails holds up no others.
-async fn round(store: &Store, machine: &CalibrationCache, ahead: u64) -> Result<bool, StoreError> {
-    let mut has_queued = false;
+/// Queues jobs of each sweep of which fewer wait. One that fails holds up no others.
+async fn round(store: &Store, machine: &CalibrationCache, ahead: u64) -> Result<Done, StoreError> {
+    let mut done = Done::Nothing;
     for sweep in store.expansions().await? {
         if sweep.waiting >= ahead {
             continue;
         }
-        let end = sweep
-            .jobs
-            .min(sweep.next + PORTION.min(ahead - sweep.waiting));
-        match queue_portion(store, machine, &sweep, end).await {
-            Ok(is_queued) => has_queued |= is_queued,
+        let jobs = ROUND.min(ahead - sweep.waiting);
+        let end = sweep.jobs.min(sweep.next + jobs);
+        match queue(store, machine, &sweep, end).await {
+            Ok(queued) => done = done.max(queued),
             Err(error) => {
                 tracing::error!(batch = %sweep.batch, %error, "the next jobs of a sweep could not be queued");
             }
         }
     }
-    Ok(has_queued)
+    Ok(done)
 }
 
-/// Queues the next jobs of a sweep; returns whether it did: not if another service has queued them, or the sweep was cancelled.
-async fn queue_portion(
+/// Queues the next jobs of a sweep, which are made on all processors meanwhile.
+async fn queue(
     store: &Store,
     machine: &CalibrationCache,
     sweep: &Expansion,
     end: u64,
-) -> Result<bool, QueueError> {
-    let Some(portion) = prepare(store, machine, sweep, end).await? else {
-        return Ok(false);
-    };
-    Ok(store.extend_batch(&portion).await?)
-}
-
-/// Makes the next jobs of a sweep, on all processors; `None` if none are to be queued any more.
-async fn prepare(
-    store: &Store,
-    machine: &CalibrationCache,
-    sweep: &Expansion,
-    end: u64,
-) -> Result<Option<Portion>, QueueError> {
+) -> Result<Done, QueueError> {
     let Some(request) = store.expansion_request(sweep.batch).await? else {
-        return Ok(None);
+        return Ok(Done::Behind);
     };
-    let request: Arc<str> = request.into();
-    let parts = parts(sweep.next..end).map(|positions| {
-        let (request, machine, batch) = (Arc::clone(&request), machine.get().cloned(), sweep.batch);
+    let batch = sweep.batch;
+    let expandable = tokio::task::spawn_blocking(move || Expandable::read(batch, &request));
+    let expandable = Arc::new(expandable.await??);
+    let portions = portions(sweep.next..end).map(|positions| {
+        let (expandable, machine) = (Arc::clone(&expandable), machine.get().cloned());
         tokio::task::spawn_blocking(move || {
-            batch::portion(batch, &request, positions, machine.as_ref(), &check_limits)
+            expandable.portion(positions, machine.as_ref(), &check_limits)
         })
     });
-    let mut whole = Portion {
-        batch: sweep.batch,
-        positions: sweep.next..end,
-        jobs: Vec::new(),
-        refused: Vec::new(),
-    };
-    for part in parts.collect::<Vec<_>>() {
-        let part = part.await??;
-        whole.jobs.extend(part.jobs);
-        whole.refused.extend(part.refused);
+    let processors = available_parallelism().map_or(1, NonZero::get);
+    let mut portions = stream::iter(portions).buffered(processors);
+    while let Some(portion) = portions.next().await {
+        if !store.extend_batch(&portion?).await? {
+            return Ok(Done::Behind);
+        }
     }
-    Ok(Some(whole))
+    Ok(Done::Queued)
 }
 
-/// Divides positions among the processors.
-fn parts(positions: Range<u64>) -> impl Iterator<Item = Range<u64>> {
-    let processors = available_parallelism().map_or(1, NonZero::get);
-    let parts = u64::try_from(processors).unwrap_or(1);
-    let length = (positions.end - positions.start).div_ceil(parts).max(1);
-    let starts = (0..parts).map(move |part| positions.start + part * length);
-    starts.map(move |start| start.min(positions.end)..(start + length).min(positions.end))
+/// Divides positions into those of one transaction each.
+fn portions(positions: Range<u64>) -> impl Iterator<Item = Range<u64>> {
+    let (start, end) = (positions.start, positions.end);
+    let count = (end - start).div_ceil(PORTION);
+    (0..count).map(move |n| start + n * PORTION..end.min(start + (n + 1) * PORTION))
 }
 
 #[cfg(test)]
@@ -135,10 +134,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_are_all_positions_once() {
-        for (start, end) in [(0, 1), (5, 5), (7, 135), (0, 3)] {
-            let all: Vec<u64> = parts(start..end).flatten().collect();
+    fn portions_are_all_positions_once() {
+        for (start, end) in [(0, 1), (5, 5), (7, 135), (7, 136), (0, 3)] {
+            let all: Vec<u64> = portions(start..end).flatten().collect();
             assert_eq!(all, (start..end).collect::<Vec<_>>());
         }
+        assert!(portions(7..1_000).all(|one| one.end - one.start <= PORTION));
     }
 }

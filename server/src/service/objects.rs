@@ -7,7 +7,9 @@ use tokio_util::sync::CancellationToken;
 
 use crate::store::Store;
 
-/// Pause after a round.
+/// Results that are moved in a round after which there may be more: the next one follows at once. Arbitrary.
+const MANY: usize = 256;
+/// Pause after another round.
 const PAUSE: Duration = Duration::from_secs(1);
 /// Longest pause after an error; the first one is [`PAUSE`], and each is twice as long as the last one.
 const LONGEST_PAUSE: Duration = Duration::from_secs(30);
@@ -27,9 +29,11 @@ pub(super) async fn move_results(store: Arc<Store>, stopping: CancellationToken)
             () = stopping.cancelled() => return,
             round = round => round,
         };
+        let is_behind = moved.len() >= MANY;
         let count = u64::try_from(moved.len()).unwrap_or_default();
         store.metrics().results_moved.inc_by(count);
         match ended {
+            Ok(()) if is_behind => continue,
             Ok(()) => pause = PAUSE,
             Err(error) => {
                 tracing::warn!(%error, "results could not be moved; they stay in the database meanwhile");

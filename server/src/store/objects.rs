@@ -4,6 +4,7 @@
 //! A key is noted as that of an unnamed object before the object is written, and is named in the transaction that removes the results
 //! from the database; so no object is left without a name or without a note, whenever the process ends. One process moves at a time.
 
+use std::collections::HashMap;
 use std::fmt::Display;
 
 use futures_util::{StreamExt, stream};
@@ -11,11 +12,13 @@ use tokio::sync::Semaphore;
 use uuid::Uuid;
 
 use crate::objects::{Objects, ObjectsError};
-use crate::store::results_to_move::{Moved, Prepared};
+use crate::store::results_to_move::{Moved, Prepared, Stored};
 use crate::store::{Store, StoreError};
 
 /// Most jobs whose results are moved at once: they share two transactions. Arbitrary: more than a machine ends within a second.
 const JOBS: i64 = 512;
+/// Most of them that are read at once, into memory.
+const READ: usize = 32;
 /// Objects that are written at the same time. Arbitrary: an object takes some 10 to 100 ms.
 const WRITES: usize = 32;
 /// Those of them that have files, whose parts are in memory.
@@ -119,16 +122,29 @@ impl Store {
             return Ok(Vec::new());
         }
         self.check_mark(objects).await?;
-        let keyed = jobs.into_iter().map(|id| {
-            let key = format!("jobs/{id}/{}", Uuid::now_v7());
-            (id, key)
-        });
-        let keyed: Vec<_> = keyed.collect();
-        self.note_unnamed(&keyed).await?;
+        let key = |id| format!("jobs/{id}/{}", Uuid::now_v7());
+        let keys: Vec<String> = jobs.iter().map(key).collect();
+        self.note_unnamed(&keys).await?;
+        let keys: HashMap<Uuid, String> = jobs.iter().copied().zip(keys).collect();
         let large = Semaphore::new(LARGE_WRITES);
-        let targets = (objects, &large);
-        let writes = stream::iter(keyed).map(|(id, key)| self.write_object(targets, id, key));
+        let parts: Vec<_> = jobs.chunks(READ).map(<[Uuid]>::to_vec).collect();
+        let read = stream::iter(parts).then(|jobs| self.read(jobs));
+        let stored = read.flat_map(stream::iter).boxed();
+        let writes = stored.map(async |stored| {
+            let stored = stored?;
+            let key = keys.get(&stored.id).ok_or(StoreError::Unwritten)?;
+            self.write_object((objects, &large), stored, key.clone())
+                .await
+        });
         Ok(writes.buffer_unordered(WRITES).collect().await)
+    }
+
+    /// Reads the results of jobs.
+    async fn read(&self, jobs: Vec<Uuid>) -> Vec<Result<Stored, StoreError>> {
+        match self.results_to_move(&jobs).await {
+            Ok(stored) => stored.into_iter().map(Ok).collect(),
+            Err(error) => vec![Err(error)],
+        }
     }
 
     async fn remove_unnamed_objects(&self, objects: &Objects) -> Result<(), StoreError> {
@@ -153,19 +169,15 @@ impl Store {
         failed
     }
 
-    /// Writes the results of a job to an object; `None` if the job was deleted, or if its results are damaged, which then stay.
+    /// Writes the results of a job to an object; `None` if they are damaged, and then stay.
     async fn write_object(
         &self,
         (objects, large): (&Objects, &Semaphore),
-        id: Uuid,
+        stored: Stored,
         key: String,
     ) -> Result<Option<Moved>, StoreError> {
-        let prepared = match self.results_to_move(id).await {
-            Ok(Some(stored)) => stored.prepare(id, key).await,
-            Ok(None) => return Ok(None),
-            Err(error) => Err(error),
-        };
-        let prepared = match prepared {
+        let id = stored.id;
+        let prepared = match stored.prepare(key).await {
             Ok(prepared) => prepared,
             Err(error @ (StoreError::DamagedResults { .. } | StoreError::Corrupt { .. })) => {
                 return self.kept(id, &error).await;

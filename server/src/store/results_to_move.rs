@@ -1,4 +1,4 @@
-//! Results of a job as they are written to an object.
+//! Results of jobs as they are written to objects.
 
 use api::results::ResultFile;
 use uuid::Uuid;
@@ -35,30 +35,28 @@ pub(in crate::store) struct Prepared {
 
 /// Results of a job as they were read from the database.
 pub(in crate::store) struct Stored {
+    pub(in crate::store) id: Uuid,
     pub(in crate::store) block: StoredBlock,
     /// Specification and plan, JSON.
     pub(in crate::store) texts: (String, String),
     /// All but the last one.
     pub(in crate::store) events: Vec<StoredEvent>,
-    pub(in crate::store) files: Vec<(ResultFile, ObjectFile)>,
+    /// An error if the place of one cannot be read.
+    pub(in crate::store) files: Result<Vec<(ResultFile, ObjectFile)>, StoreError>,
 }
 
 impl Stored {
     /// Checks the results and compresses what is not yet.
-    pub(in crate::store) async fn prepare(
-        self,
-        id: Uuid,
-        key: String,
-    ) -> Result<Prepared, StoreError> {
+    pub(in crate::store) async fn prepare(self, key: String) -> Result<Prepared, StoreError> {
         let prepare = move || {
             let StoredBlock {
                 entries, content, ..
             } = self.block;
-            let (spec, plan) = self.texts;
+            let (id, (spec, plan)) = (self.id, self.texts);
             check(id, &entries, &content)?;
             let events = pack_events(&self.events)?;
             let events_entry = manifest_entry("events", None, JSON, &events);
-            let (of_files, files): (Vec<_>, _) = self.files.into_iter().unzip();
+            let (of_files, files): (Vec<_>, _) = self.files?.into_iter().unzip();
             let with_files = Block::with_files(&entries, events_entry, of_files);
             let with_files = with_files.map_err(|cause| unreadable(id, &cause))?;
             let moved = Moved {

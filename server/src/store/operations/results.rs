@@ -55,7 +55,7 @@ operations! {
     pub(in crate::store) async fn movable_jobs(&self, most: i64) -> Result<Vec<Uuid>, StoreError>;
 
     /// Notes the keys of objects that are about to be written.
-    pub(in crate::store) async fn note_unnamed(&self, keyed: &[(Uuid, String)]) -> Result<(), StoreError>;
+    pub(in crate::store) async fn note_unnamed(&self, keys: &[String]) -> Result<(), StoreError>;
 
     /// Keys of objects to be removed; they cannot be named any more.
     pub(in crate::store) async fn take_unnamed(&self, most: i64) -> Result<Vec<String>, StoreError>;
@@ -63,8 +63,8 @@ operations! {
     /// Forgets the keys of removed objects.
     pub(in crate::store) async fn forget_unnamed(&self, keys: &[String]) -> Result<(), StoreError>;
 
-    /// Reads the results of a job; `None` if it was deleted.
-    pub(in crate::store) async fn results_to_move(&self, id: Uuid) -> Result<Option<Stored>, StoreError>;
+    /// Reads the results of jobs that were not deleted.
+    pub(in crate::store) async fn results_to_move(&self, ids: &[Uuid]) -> Result<Vec<Stored>, StoreError>;
 
     /// Notes that the results of a job cannot be moved.
     pub(in crate::store) async fn keep_results(&self, id: Uuid) -> Result<(), StoreError>;

@@ -1,6 +1,5 @@
 //! Rows of events.
 
-use sqlx::postgres::PgConnection;
 use uuid::Uuid;
 
 use crate::store::postgres::PostgresStore;
@@ -24,20 +23,4 @@ impl PostgresStore {
         let stored = rows.into_iter().map(events::with_summary);
         stored.collect()
     }
-}
-
-/// All events of a job but the last one, which stays.
-pub(super) async fn events_to_move(
-    connection: &mut PgConnection,
-    id: Uuid,
-) -> Result<Vec<StoredEvent>, StoreError> {
-    let rows: Vec<(i64, String, String)> = sqlx::query_as(
-        "SELECT seq, name, data FROM events WHERE job_id = $1 \
-         AND seq < (SELECT last_event FROM jobs WHERE id = $1) ORDER BY seq",
-    )
-    .bind(id)
-    .fetch_all(connection)
-    .await?;
-    let event = |(seq, name, data)| StoredEvent { seq, name, data };
-    Ok(rows.into_iter().map(event).collect())
 }

@@ -113,27 +113,22 @@ pub(super) async fn insert_jobs(
     new: &[NewBatchJob],
     now: Now,
 ) -> Result<(), StoreError> {
-    let (mut positions, mut jobs, mut overrides) = (Vec::new(), Vec::new(), Vec::new());
-    for NewBatchJob {
-        position,
-        job,
-        overrides: changes,
-    } in new
-    {
+    let rows = new.iter().map(|NewBatchJob { job, .. }| {
         let row = NewRow::of(job, new_id(now.system_ms), now)?;
-        insert(connection, job, &row, (Some(batch), now)).await?;
-        positions.push(integer(*position));
-        jobs.push(row.id);
-        overrides.push(serde_json::to_string(changes)?);
-    }
+        Ok((job, row))
+    });
+    let rows: Vec<_> = rows.collect::<Result<_, StoreError>>()?;
+    insert(connection, &rows, (Some(batch), now)).await?;
+    let positions = new.iter().map(|new| integer(new.position));
+    let overrides = new.iter().map(|new| serde_json::to_string(&new.overrides));
     sqlx::query(
         "INSERT INTO sweep_jobs (sweep_id, position, job_id, overrides) \
          SELECT $1, * FROM unnest($2::bigint[], $3::uuid[], $4::text[])",
     )
     .bind(batch)
-    .bind(positions)
-    .bind(jobs)
-    .bind(overrides)
+    .bind(positions.collect::<Vec<_>>())
+    .bind(rows.iter().map(|(_, row)| row.id).collect::<Vec<_>>())
+    .bind(overrides.collect::<Result<Vec<_>, _>>()?)
     .execute(connection)
     .await?;
     Ok(())

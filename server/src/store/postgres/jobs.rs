@@ -23,16 +23,17 @@ impl PostgresStore {
     ) -> Result<Submitted, StoreError> {
         self.local.disk.check()?;
         let (mut transaction, now) = self.begin().await?;
-        let new = NewRow::of(job, new_id(now.system_ms), now)?;
+        let id = new_id(now.system_ms);
         if let Some(key) = key
-            && let Some(earlier) = submitted_before(&mut transaction, key, new.id).await?
+            && let Some(earlier) = submitted_before(&mut transaction, key, id).await?
         {
             return Ok(earlier);
         }
-        insert(&mut transaction, job, &new, (None, now)).await?;
+        let new = [(job, NewRow::of(job, id, now)?)];
+        insert(&mut transaction, &new, (None, now)).await?;
         transaction.commit().await?;
-        self.local.concluded(new.id, Some(Status::Queued));
-        Ok(Submitted::Job(new.id))
+        self.local.concluded(id, Some(Status::Queued));
+        Ok(Submitted::Job(id))
     }
 
     pub(in crate::store) async fn job(&self, id: Uuid) -> Result<Option<StoredJob>, StoreError> {

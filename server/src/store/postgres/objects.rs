@@ -131,11 +131,7 @@ impl PostgresStore {
         Ok(jobs.fetch_all(&self.pool).await?)
     }
 
-    pub(in crate::store) async fn note_unnamed(
-        &self,
-        keyed: &[(Uuid, String)],
-    ) -> Result<(), StoreError> {
-        let keys: Vec<_> = keyed.iter().map(|(_, key)| key.as_str()).collect();
+    pub(in crate::store) async fn note_unnamed(&self, keys: &[String]) -> Result<(), StoreError> {
         sqlx::query("INSERT INTO unnamed_objects (key) SELECT * FROM unnest($1::text[])")
             .bind(keys)
             .execute(&self.pool)

@@ -1,53 +1,91 @@
-//! Results of a job as they are read to be moved.
+//! Results of jobs as they are read to be moved: by statements over all of them.
+
+use std::collections::HashMap;
 
 use api::results::ResultFile;
-use sqlx::postgres::PgConnection;
+use sqlx::Row;
+use sqlx::postgres::{PgConnection, PgRow};
 use uuid::Uuid;
 
 use crate::objects::ObjectFile;
-use crate::store::StoreError;
 use crate::store::postgres::PostgresStore;
-use crate::store::postgres::blocks::stored_block;
-use crate::store::postgres::events::events_to_move;
 use crate::store::results_to_move::{Stored, file_to_move};
+use crate::store::rows::StoredRow;
+use crate::store::stored_block::StoredBlock;
+use crate::store::{StoreError, StoredEvent};
 
 impl PostgresStore {
-    /// Reads the results of a job; `None` if it was deleted.
     pub(in crate::store) async fn results_to_move(
         &self,
-        id: Uuid,
-    ) -> Result<Option<Stored>, StoreError> {
+        ids: &[Uuid],
+    ) -> Result<Vec<Stored>, StoreError> {
         let mut connection = self.readers.acquire().await?;
-        let block = stored_block(&mut connection, id).await?;
-        let texts = sqlx::query_as("SELECT spec, plan FROM jobs WHERE id = $1")
-            .bind(id)
-            .fetch_optional(&mut *connection)
-            .await?;
-        let (Some(block), Some(texts)) = (block, texts) else {
-            return Ok(None);
-        };
-        Ok(Some(Stored {
-            block,
-            texts,
-            events: events_to_move(&mut connection, id).await?,
-            files: self.files_to_move(&mut connection, id).await?,
-        }))
+        let rows = sqlx::query(
+            "SELECT job_id, entries, content, object, content_bytes, spec, plan FROM result_blocks JOIN jobs ON id = job_id \
+             WHERE job_id = ANY($1)",
+        )
+        .bind(ids)
+        .fetch_all(&mut *connection)
+        .await?;
+        let mut events = events_to_move(&mut connection, ids).await?;
+        let mut files = self.files_to_move(&mut connection, ids).await?;
+        let stored = rows.iter().map(|row| {
+            let id = row.id("job_id")?;
+            let (entries, content) = (row.try_get("entries")?, row.try_get("content")?);
+            let (key, bytes) = (row.try_get("object")?, row.try_get("content_bytes")?);
+            Ok(Stored {
+                id,
+                block: StoredBlock::new(entries, content, key, bytes),
+                texts: (row.text("spec")?, row.text("plan")?),
+                events: events.remove(&id).unwrap_or_default(),
+                files: files.remove(&id).unwrap_or_else(|| Ok(Vec::new())),
+            })
+        });
+        stored.collect()
     }
 
-    /// The files of a job's manifest, with their places.
+    /// The files of the manifests of jobs, with their places, which may be unreadable.
     async fn files_to_move(
         &self,
         connection: &mut PgConnection,
-        id: Uuid,
-    ) -> Result<Vec<(ResultFile, ObjectFile)>, StoreError> {
+        ids: &[Uuid],
+    ) -> Result<HashMap<Uuid, Result<Vec<(ResultFile, ObjectFile)>, StoreError>>, StoreError> {
         let rows = sqlx::query(
-            "SELECT name, cycle, media_type, bytes, sha256, damaged, place FROM result_files \
-             WHERE job_id = $1 AND place IS NOT NULL ORDER BY name COLLATE \"C\"",
+            "SELECT job_id, name, cycle, media_type, bytes, sha256, damaged, place FROM result_files \
+             WHERE job_id = ANY($1) AND place IS NOT NULL ORDER BY job_id, name COLLATE \"C\"",
         )
-        .bind(id)
+        .bind(ids)
         .fetch_all(connection)
         .await?;
-        let file = |row| file_to_move(&self.local.folder, id, row);
-        rows.iter().map(file).collect()
+        let mut rows_of: HashMap<Uuid, Vec<PgRow>> = HashMap::new();
+        for row in rows {
+            rows_of.entry(row.id("job_id")?).or_default().push(row);
+        }
+        let folder = &self.local.folder;
+        let files = rows_of.into_iter().map(|(id, rows)| {
+            let files = rows.iter().map(|row| file_to_move(folder, id, row));
+            (id, files.collect())
+        });
+        Ok(files.collect())
     }
+}
+
+/// All events of jobs but the last ones, which stay.
+async fn events_to_move(
+    connection: &mut PgConnection,
+    ids: &[Uuid],
+) -> Result<HashMap<Uuid, Vec<StoredEvent>>, StoreError> {
+    let rows: Vec<(Uuid, i64, String, String)> = sqlx::query_as(
+        "SELECT job_id, seq, name, data FROM events JOIN jobs ON id = job_id \
+         WHERE job_id = ANY($1) AND seq < last_event ORDER BY job_id, seq",
+    )
+    .bind(ids)
+    .fetch_all(connection)
+    .await?;
+    let mut events: HashMap<_, Vec<_>> = HashMap::new();
+    for (job, seq, name, data) in rows {
+        let event = StoredEvent { seq, name, data };
+        events.entry(job).or_default().push(event);
+    }
+    Ok(events)
 }

@@ -101,12 +101,9 @@ impl SqliteStore {
         Ok(jobs.into_iter().map(Uuid::from).collect())
     }
 
-    pub(in crate::store) async fn note_unnamed(
-        &self,
-        keyed: &[(Uuid, String)],
-    ) -> Result<(), StoreError> {
+    pub(in crate::store) async fn note_unnamed(&self, keys: &[String]) -> Result<(), StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        for (_, key) in keyed {
+        for key in keys {
             sqlx::query("INSERT INTO unnamed_objects (key) VALUES (?)")
                 .bind(key)
                 .execute(&mut *transaction)

@@ -1,4 +1,4 @@
-//! Results of a job as they are read to be moved.
+//! Results of jobs as they are read to be moved.
 
 use api::results::ResultFile;
 use sqlx::SqliteConnection;
@@ -12,13 +12,24 @@ use crate::store::sqlite::blocks::stored_block;
 use crate::store::sqlite::events::events_to_move;
 
 impl SqliteStore {
-    /// Reads the results of a job; `None` if it was deleted.
     pub(in crate::store) async fn results_to_move(
         &self,
+        ids: &[Uuid],
+    ) -> Result<Vec<Stored>, StoreError> {
+        let (mut connection, mut stored) = (self.readers.acquire().await?, Vec::new());
+        for id in ids {
+            stored.extend(self.results_of(&mut connection, *id).await?);
+        }
+        Ok(stored)
+    }
+
+    /// The results of a job; `None` if it was deleted.
+    async fn results_of(
+        &self,
+        connection: &mut SqliteConnection,
         id: Uuid,
     ) -> Result<Option<Stored>, StoreError> {
-        let mut connection = self.readers.acquire().await?;
-        let block = stored_block(&mut connection, id).await?;
+        let block = stored_block(&mut *connection, id).await?;
         let texts = sqlx::query_as("SELECT spec, plan FROM jobs WHERE id = ?")
             .bind(id.to_string())
             .fetch_optional(&mut *connection)
@@ -26,20 +37,22 @@ impl SqliteStore {
         let (Some(block), Some(texts)) = (block, texts) else {
             return Ok(None);
         };
+        let events = events_to_move(&mut *connection, id).await?;
         Ok(Some(Stored {
+            id,
             block,
             texts,
-            events: events_to_move(&mut connection, id).await?,
-            files: self.files_to_move(&mut connection, id).await?,
+            events,
+            files: self.files_to_move(connection, id).await?,
         }))
     }
 
-    /// The files of a job's manifest, with their places.
+    /// The files of a job's manifest, with their places, which may be unreadable.
     async fn files_to_move(
         &self,
         connection: &mut SqliteConnection,
         id: Uuid,
-    ) -> Result<Vec<(ResultFile, ObjectFile)>, StoreError> {
+    ) -> Result<Result<Vec<(ResultFile, ObjectFile)>, StoreError>, StoreError> {
         let rows = sqlx::query(
             "SELECT name, cycle, media_type, bytes, sha256, damaged, place FROM result_files \
              WHERE job_id = ? AND place IS NOT NULL ORDER BY name",
@@ -48,6 +61,6 @@ impl SqliteStore {
         .fetch_all(connection)
         .await?;
         let file = |row| file_to_move(&self.local.folder, id, row);
-        rows.iter().map(file).collect()
+        Ok(rows.iter().map(file).collect())
     }
 }

@@ -186,7 +186,7 @@ async fn objects_without_a_name_are_removed(database: WithObjects) {
     std::fs::write(objects.join("jobs/left"), "").expect("written");
     database
         .store
-        .note_unnamed(&[(id, "jobs/left".to_owned())])
+        .note_unnamed(&["jobs/left".to_owned()])
         .await
         .expect("noted");
     database.moved().await;
@@ -280,7 +280,7 @@ async fn an_object_that_cannot_be_removed_stops_nothing(database: WithObjects) {
     let objects = database.place.folder.path().join("objects");
     // A folder is no object, and cannot be removed as one.
     std::fs::create_dir_all(objects.join("jobs/left/inside")).expect("a folder");
-    let left = [(id, "jobs/left".to_owned())];
+    let left = ["jobs/left".to_owned()];
     database.store.note_unnamed(&left).await.expect("noted");
     let (moved, ended) = database.store.move_results().await;
     assert_eq!(moved, [id]);
