@@ -1,7 +1,8 @@
-//! Objects: results of ended jobs and checkpoints in a store of objects, a folder (`file:///PATH`) or a bucket (`s3://BUCKET/PREFIX`), by the crate
+//! Objects: results of ended jobs, checkpoints and files of attempts in a store of objects, a folder (`file:///PATH`) or a bucket (`s3://BUCKET/PREFIX`), by the crate
 //! `object_store`. An object is written once, whole or not at all, and never changed. Knows neither jobs nor SQL.
 
 mod part;
+mod source;
 
 use std::fmt;
 use std::ops::Range;
@@ -9,6 +10,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
+use futures_util::StreamExt;
 use object_store::aws::AmazonS3Builder;
 use object_store::buffered::BufWriter;
 use object_store::local::LocalFileSystem;
@@ -16,11 +18,12 @@ use object_store::path::Path;
 use object_store::prefix::PrefixStore;
 use object_store::{ObjectStore, ObjectStoreExt, RetryConfig};
 use sha2::{Digest, Sha256};
-use tokio::io::{AsyncReadExt, AsyncWriteExt};
+use tokio::io::AsyncWriteExt;
 
 use crate::export::files::hexadecimal;
 
 pub use part::ObjectPart;
+pub use source::{ObjectFile, Source};
 
 /// Retries of a request, and the longest time for them: the caller tries again later, too.
 const RETRIES: usize = 3;
@@ -30,8 +33,6 @@ const PART_BYTES: usize = 8 << 20;
 const PARTS: usize = 2;
 /// Key of the object that marks a store: one without it is another one, or a folder that is not mounted.
 const MARK: &str = "fretwear-objects";
-/// Size of the chunks in which a file is read, bytes.
-const CHUNK_BYTES: usize = 64 << 10;
 
 /// Why an object cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -50,10 +51,10 @@ pub enum ObjectsError {
         cause: std::io::Error,
     },
     /// A file that belongs into an object is missing or another one.
-    #[error("{} is damaged: {how}", .path.display())]
+    #[error("{what} is damaged: {how}")]
     Damaged {
         /// The file.
-        path: PathBuf,
+        what: String,
         /// What differs.
         how: String,
     },
@@ -73,17 +74,6 @@ pub enum ObjectsError {
         /// The cause.
         cause: Box<dyn std::error::Error + Send + Sync>,
     },
-}
-
-/// A file that belongs into an object.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ObjectFile {
-    /// Its path.
-    pub path: PathBuf,
-    /// Its length.
-    pub bytes: u64,
-    /// Its SHA-256, hexadecimal.
-    pub sha256: String,
 }
 
 /// A store of objects.
@@ -179,7 +169,7 @@ impl Objects {
         self.check_folder()?;
         let put = self.store.put(&Path::from(key), bytes.into()).await;
         put.map_err(|cause| self.failed(cause.into()))?;
-        Ok(())
+        self.check_folder()
     }
 
     /// Writes an object: bytes, and the contents of files behind them, which are compared with what they should be. After an error there may be
@@ -211,44 +201,22 @@ impl Objects {
             let _ = writer.abort().await;
             return written;
         }
-        writer.shutdown().await.map_err(failed)
+        writer.shutdown().await.map_err(failed)?;
+        self.check_folder()
     }
 
     /// Writes a file, and compares length and checksum.
     async fn append(&self, writer: &mut BufWriter, file: &ObjectFile) -> Result<(), ObjectsError> {
-        let path = &file.path;
-        let damaged = |how: String| ObjectsError::Damaged {
-            path: path.clone(),
-            how,
-        };
-        let unread = |cause: std::io::Error| match cause.kind() {
-            std::io::ErrorKind::NotFound => damaged("it does not exist".to_owned()),
-            _ => ObjectsError::File {
-                path: path.clone(),
-                cause,
-            },
-        };
-        let mut content = tokio::fs::File::open(path).await.map_err(unread)?;
-        let (mut chunk, mut bytes, mut sha256) = (vec![0; CHUNK_BYTES], 0, Sha256::new());
-        loop {
-            let length = content.read(&mut chunk).await.map_err(unread)?;
-            if length == 0 {
-                break;
-            }
-            sha256.update(&chunk[..length]);
-            bytes += u64::try_from(length).unwrap_or(u64::MAX);
-            let written = writer.write_all(&chunk[..length]).await;
+        let (mut bytes, mut sha256) = (0, Sha256::new());
+        let mut chunks = file.source.open().await?;
+        while let Some(chunk) = chunks.next().await {
+            let chunk = chunk?;
+            sha256.update(&chunk);
+            bytes += u64::try_from(chunk.len()).unwrap_or(u64::MAX);
+            let written = writer.write_all(&chunk).await;
             written.map_err(|cause| self.failed(cause.into()))?;
         }
-        let sha256 = hexadecimal(&sha256.finalize());
-        if (bytes, &sha256) == (file.bytes, &file.sha256) {
-            return Ok(());
-        }
-        let how = format!(
-            "it has {bytes} bytes with the SHA-256 {sha256}, and should have {} with {}",
-            file.bytes, file.sha256
-        );
-        Err(damaged(how))
+        file.check(bytes, &hexadecimal(&sha256.finalize()))
     }
 
     /// Reads a range of an object.
@@ -291,7 +259,7 @@ impl Objects {
         }
     }
 
-    /// Checks the mark of a folder: what is not mounted would take an object all the same.
+    /// Checks the mark of a folder, before and after an object is written: what is not mounted takes one all the same.
     fn check_folder(&self) -> Result<(), ObjectsError> {
         match &self.folder {
             Some(folder) if !folder.join(MARK).exists() => Err(self.unmarked()),

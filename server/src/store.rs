@@ -60,6 +60,7 @@ mod document;
 mod ending;
 mod error;
 mod events;
+mod file_objects;
 mod folder;
 mod gauges;
 pub mod integrity;
@@ -82,6 +83,7 @@ mod rows;
 mod sqlite;
 mod stored_block;
 mod stored_file;
+mod updates;
 mod workers;
 
 pub use backup::{BackupError, CopySummary};
@@ -103,7 +105,7 @@ pub use leases::{
 };
 pub use limits::Limits;
 pub use operations::{Store, shown_address};
-pub use results::{Chunks, Content, ContentError, NewFile, SnapshotPart, StoredEvent};
+pub use results::{Chunks, Content, ContentError, NewContent, NewFile, SnapshotPart, StoredEvent};
 pub use sqlite::OWNER_HEARTBEAT;
 pub use sqlite::backup::{backup, restore};
 pub use sqlite::verify::verify;

@@ -2,22 +2,25 @@
 //! exactly once, no stale lease is held, event ids have no gaps, and every result has the bits of an uninterrupted run.
 //!
 //! The short form runs with every test. The long one:
-//! `cargo test --release -p tests --test cases -- --ignored --nocapture --exact chaos::chaos_long`, or `chaos::chaos_long_of_postgresql`,
+//! `cargo test --release -p tests --test cases -- --ignored --nocapture --exact chaos::chaos_long`, `chaos::chaos_long_of_postgresql` or `chaos::chaos_long_of_two_services`,
 //! with `FRETWEAR_CHAOS_JOBS` (1 000) and `FRETWEAR_CHAOS_SEED` to choose.
 
 mod faults;
 mod trial;
 
 use std::path::Path;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 use tests::{Server, bare_preset, bits, database, fretwear, merged};
 
+use faults::files_below;
 use trial::{Engine, Trial};
 
 /// Largest number of queued and running jobs in the short form and in the long one: some, so that submissions are interrupted too.
 const AHEAD: (usize, usize) = (12, 60);
+/// Longest wait until results are moved; not a measure of speed.
+const PATIENCE: Duration = Duration::from_mins(5);
 /// Most jobs beyond those that are asked for, until every fault was injected: the disk holds the results of all of them.
 const MOST_MORE: usize = 60;
 
@@ -102,11 +105,22 @@ async fn chaos(engine: Engine, least_jobs: usize, seed: u64) {
         attempts += began.len();
         resumed += began.iter().filter(|a| a["from_cycle"] != 0).count();
     }
-    check_database(&trial.folder, jobs).await;
-    if engine == Engine::File {
-        check_file(&trial.folder).await;
+    match engine {
+        Engine::File => {
+            check_database(&trial.folder, jobs).await;
+            check_events(&trial.folder).await;
+            check_file(&trial.folder).await;
+        }
+        Engine::Server => {
+            check_database(&trial.folder, jobs).await;
+            check_events(&trial.folder).await;
+        }
+        Engine::Services => {
+            check_database(&trial.folder, jobs).await;
+            check_objects(&trial).await;
+        }
     }
-    trial.count_failed_tasks().await;
+    trial.count_all_failed_tasks().await;
     println!(
         "chaos, {engine:?}, seed {seed}: {jobs} jobs, {attempts} attempts, {resumed} of them from a checkpoint, {} faults {:?}, {} tasks \
          failed, starts by log {:?}{}, {:.0} s: every job ended once with the bits of an uninterrupted run",
@@ -133,17 +147,44 @@ async fn check_database(folder: &Path, jobs: usize) {
         ),
         ("SELECT count(*) FROM checkpoints", 0),
         ("SELECT count(*) FROM events WHERE name = 'done'", jobs),
-        (
-            "SELECT count(*) FROM jobs WHERE last_event <> (SELECT count(*) FROM events WHERE job_id = id)",
-            0,
-        ),
-        (
-            "SELECT count(*) FROM jobs WHERE last_event <> (SELECT max(seq) FROM events WHERE job_id = id)",
-            0,
-        ),
     ] {
         let found = database::number(folder, query).await;
         assert_eq!(usize::try_from(found), Ok(expected), "{query}");
+    }
+}
+
+/// Checks the events of all jobs; of those whose results are objects, only the last ones are in the database.
+async fn check_events(folder: &Path) {
+    for query in [
+        "SELECT count(*) FROM jobs WHERE last_event <> (SELECT count(*) FROM events WHERE job_id = id)",
+        "SELECT count(*) FROM jobs WHERE last_event <> (SELECT max(seq) FROM events WHERE job_id = id)",
+    ] {
+        assert_eq!(database::number(folder, query).await, 0, "{query}");
+    }
+}
+
+/// Checks that all results have become objects that can be read, and that no object is left which nothing names and nobody will remove.
+async fn check_objects(trial: &Trial) {
+    let began = Instant::now();
+    let left = "SELECT count(*) FROM result_blocks WHERE object IS NULL";
+    while database::number(&trial.folder, left).await > 0 {
+        assert!(began.elapsed() < PATIENCE, "results are moved");
+        tokio::time::sleep(Duration::from_millis(100)).await;
+    }
+    for id in &trial.accepted {
+        let archive = format!("/v1/jobs/{id}/results/archive");
+        trial.server().bytes_in_the_end(&archive).await;
+    }
+    let known = "SELECT object FROM result_blocks UNION SELECT object FROM checkpoints WHERE object IS NOT NULL \
+        UNION SELECT object FROM result_files WHERE object IS NOT NULL UNION SELECT key FROM unnamed_objects";
+    let mut known = database::texts(&trial.folder, known).await;
+    known.push("fretwear-objects".to_owned());
+    for path in files_below(&trial.results) {
+        let key = path.strip_prefix(&trial.results).expect("below it");
+        // A folder has an object under another name, `KEY#1`, until it is whole: one that a kill has interrupted stays.
+        let key = key.to_str().expect("a key");
+        let key = key.split_once('#').map_or(key, |(key, _)| key);
+        assert!(known.iter().any(|known| known == key), "{key}");
     }
 }
 
@@ -187,6 +228,15 @@ async fn chaos_short_of_postgresql() {
 }
 
 #[tokio::test]
+#[cfg_attr(
+    not(all(has_cc, has_mount, has_postgresql)),
+    ignore = "needs PostgreSQL, a C compiler and the right to mount a disk"
+)]
+async fn chaos_short_of_two_services() {
+    chaos(Engine::Services, 6, 7).await;
+}
+
+#[tokio::test]
 #[ignore = "takes minutes; run it by name"]
 async fn chaos_long() {
     long(Engine::File).await;
@@ -196,6 +246,12 @@ async fn chaos_long() {
 #[ignore = "takes minutes; run it by name"]
 async fn chaos_long_of_postgresql() {
     long(Engine::Server).await;
+}
+
+#[tokio::test]
+#[ignore = "takes minutes; run it by name"]
+async fn chaos_long_of_two_services() {
+    long(Engine::Services).await;
 }
 
 async fn long(engine: Engine) {

@@ -38,6 +38,7 @@ mod main_job;
 mod many_jobs;
 mod many_workers;
 mod mission;
+mod no_shared_folder;
 mod objects;
 mod partition;
 mod plated_contact;

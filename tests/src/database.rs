@@ -99,6 +99,16 @@ pub async fn stall(folder: &Path, time: Duration) {
     database.close().await.expect("the database can be closed");
 }
 
+/// Returns the texts that a query to a database of a server yields.
+///
+/// # Panics
+/// If they cannot be read.
+pub async fn texts(folder: &Path, query: &'static str) -> Vec<String> {
+    let mut database = open_served(folder).await.expect("a server");
+    let found = sqlx::query_scalar(query).fetch_all(&mut database).await;
+    found.expect("the database can be read")
+}
+
 /// Returns the number that a query yields.
 ///
 /// # Panics

@@ -36,7 +36,7 @@ pub(super) struct ServeArguments {
         hide_env_values = true
     )]
     pub(super) database: String,
-    /// Where large results are with a PostgreSQL database: in the folder PATH.results, which all its services share. Those of a SQLite
+    /// Where large results are with a PostgreSQL database: in the folder PATH.results, which all its services share unless they have --objects. Those of a SQLite
     /// database are beside it.
     #[arg(
         long,

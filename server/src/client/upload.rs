@@ -5,6 +5,7 @@ use std::path::Path;
 use api::results::ResultFile;
 use reqwest::Body;
 use reqwest::header::CONTENT_LENGTH;
+use serde::de::DeserializeOwned;
 use tokio_util::io::ReaderStream;
 
 use crate::client::{Client, ClientError};
@@ -14,12 +15,12 @@ impl Client {
     ///
     /// # Errors
     /// [`ClientError`].
-    pub async fn put_file(
+    pub async fn put_file<T: DeserializeOwned>(
         &self,
         path: &str,
         file: &Path,
         entry: &ResultFile,
-    ) -> Result<(), ClientError> {
+    ) -> Result<T, ClientError> {
         let failed = |cause| ClientError::File {
             path: file.to_owned(),
             cause,
@@ -31,6 +32,6 @@ impl Client {
             .query(&[("sha256", &entry.sha256)])
             .header(CONTENT_LENGTH, entry.bytes)
             .body(Body::wrap_stream(ReaderStream::new(content)));
-        self.send(request).await.map(drop)
+        self.document(path, request).await
     }
 }

@@ -131,6 +131,13 @@ impl From<StoreError> for ProblemResponse {
                 .with_detail(
                     "the store of objects has lost its mark: it is another one, or is not mounted",
                 ),
+            StoreError::Objects(ObjectsError::Damaged { .. }) => {
+                tracing::error!(%error, "a file is not what it should be");
+                return ProblemType::FILE_DIFFERS.with_detail(error.to_string());
+            }
+            StoreError::LostFile(_) => {
+                ProblemType::RESULTS_UNREACHABLE.with_detail(error.to_string())
+            }
             StoreError::Objects(_) => ProblemType::RESULTS_UNREACHABLE
                 .with_detail("the store of objects does not answer; send the request again"),
             error if error.is_transient() => {

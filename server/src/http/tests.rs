@@ -22,7 +22,7 @@ use crate::export::files;
 use crate::http::{Access, App, MAX_REQUESTS, openapi, router};
 use crate::queue::Transition;
 use crate::store;
-use crate::store::{End, JobUpdate, NewFile, Store};
+use crate::store::{End, JobUpdate, NewContent, NewFile, Store};
 
 /// All routes over a new store.
 pub(crate) struct Service {
@@ -147,15 +147,15 @@ impl Service {
             files: vec![
                 NewFile {
                     file: files::manifest_entry("profile-20.csv", Some(20), CSV, &table),
-                    content: Some(table),
+                    content: NewContent::Inline(table),
                 },
                 NewFile {
                     file: fields,
-                    content: None,
+                    content: NewContent::Folder,
                 },
                 NewFile {
                     file: files::manifest_entry("summary.json", None, JSON, b"{}"),
-                    content: Some(b"{}".to_vec()),
+                    content: NewContent::Inline(b"{}".to_vec()),
                 },
             ],
             ..JobUpdate::default()

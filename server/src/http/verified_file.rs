@@ -5,6 +5,7 @@ use uuid::Uuid;
 
 use crate::http::app::App;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
+use crate::objects::{ObjectPart, ObjectsError};
 use crate::store::{Content, IntegrityError, StoreError, integrity};
 
 /// Largest file that is checked as a whole before the first byte is sent, bytes. The length of every file is checked; the
@@ -53,10 +54,10 @@ impl App {
         };
         let is_small = entry.bytes <= CHECKED_FIRST;
         let (stored, content) = match content {
-            Content::Object(part) if is_small => {
-                let bytes = part.read().await.map_err(StoreError::from)?;
-                (Content::Object(part), Content::Inline(bytes))
-            }
+            Content::Object(part) if is_small => match part.read().await {
+                Ok(bytes) => (Content::Object(part), Content::Inline(bytes)),
+                Err(error) => return self.without_object(id, name, (part, error)).await,
+            },
             content => (content.clone(), content),
         };
         let check = move || {
@@ -86,6 +87,22 @@ impl App {
             content,
             is_complete,
         }))
+    }
+
+    /// The answer where the object of a file cannot be read: the file from elsewhere, if it was moved meanwhile.
+    async fn without_object(
+        &self,
+        id: Uuid,
+        name: &str,
+        (part, error): (ObjectPart, ObjectsError),
+    ) -> Result<Option<VerifiedFile>, ProblemResponse> {
+        match self.store.result_file(id, name).await? {
+            None => Ok(None),
+            Some((_, now)) if now != Content::Object(part) => {
+                Box::pin(self.verified_file(id, name)).await
+            }
+            Some(_) => Err(StoreError::from(error).into()),
+        }
     }
 
     /// Returns the error that says how a file is damaged; marks it in its manifest, unless it only could not be read.

@@ -37,6 +37,11 @@ impl ObjectPart {
         }
     }
 
+    /// Key of the object.
+    pub(super) fn key(&self) -> &str {
+        &self.key
+    }
+
     /// Its length, bytes.
     pub fn length(&self) -> u64 {
         self.range.end - self.range.start

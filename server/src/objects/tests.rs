@@ -10,7 +10,7 @@ use crate::export::files::sha256;
 /// A file that should have a content.
 fn file(path: &std::path::Path, content: &[u8]) -> ObjectFile {
     ObjectFile {
-        path: path.to_owned(),
+        source: Source::File(path.to_owned()),
         bytes: u64::try_from(content.len()).expect("small"),
         sha256: sha256(content),
     }
@@ -19,8 +19,9 @@ fn file(path: &std::path::Path, content: &[u8]) -> ObjectFile {
 #[tokio::test]
 async fn an_object_has_its_head_and_its_files_and_is_read_in_parts() {
     let folder = tempfile::tempdir().expect("a folder");
-    let file = file(&folder.path().join("a.vtu"), b"fields");
-    std::fs::write(&file.path, "fields").expect("written");
+    let path = folder.path().join("a.vtu");
+    let file = file(&path, b"fields");
+    std::fs::write(&path, "fields").expect("written");
     let address = format!("file://{}/objects", folder.path().display());
     let objects = Objects::open(&address).expect("opened");
     objects.mark().await.expect("marked");
@@ -54,10 +55,11 @@ async fn an_object_whose_files_are_missing_or_damaged_is_not_written() {
     let objects = Objects::open(&format!("file://{}", folder.path().display()));
     let objects = objects.expect("opened");
     objects.mark().await.expect("marked");
-    let file = file(&folder.path().join("a.vtu"), b"fields");
+    let path = folder.path().join("a.vtu");
+    let file = file(&path, b"fields");
     for found in [None, Some("field"), Some("FIELDS")] {
         if let Some(found) = found {
-            std::fs::write(&file.path, found).expect("written");
+            std::fs::write(&path, found).expect("written");
         }
         let written = objects.put("a", b"head", slice::from_ref(&file)).await;
         let is_damaged = matches!(written, Err(ObjectsError::Damaged { .. }));

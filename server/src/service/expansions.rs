@@ -40,7 +40,7 @@ enum QueueError {
 enum Done {
     /// No sweep needed jobs.
     Nothing,
-    /// Another service queues them, or the sweep was cancelled.
+    /// Another service queues them, or the sweep was just cancelled.
     Behind,
     /// It has queued some.
     Queued,
@@ -101,7 +101,7 @@ async fn queue(
     end: u64,
 ) -> Result<Done, QueueError> {
     let Some(request) = store.expansion_request(sweep.batch).await? else {
-        return Ok(Done::Behind);
+        return Ok(Done::Nothing);
     };
     let batch = sweep.batch;
     let expandable = tokio::task::spawn_blocking(move || Expandable::read(batch, &request));
@@ -114,12 +114,14 @@ async fn queue(
     });
     let processors = available_parallelism().map_or(1, NonZero::get);
     let mut portions = stream::iter(portions).buffered(processors);
+    let mut done = Done::Behind;
     while let Some(portion) = portions.next().await {
         if !store.extend_batch(&portion?).await? {
-            return Ok(Done::Behind);
+            break;
         }
+        done = Done::Queued;
     }
-    Ok(Done::Queued)
+    Ok(done)
 }
 
 /// Divides positions into those of one transaction each.

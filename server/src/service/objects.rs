@@ -20,7 +20,7 @@ pub(super) async fn move_results(store: Arc<Store>, stopping: CancellationToken)
     loop {
         let round = async {
             let (now, ended) = store.move_results().await;
-            // Requests that were about to read these files have had a pause.
+            // Requests that were about to read these files have had a pause, or the time of a round.
             store.remove_moved(&moved).await;
             (now, ended)
         };

@@ -9,9 +9,9 @@ use std::time::Duration;
 use tokio::time::{Instant, timeout};
 use uuid::Uuid;
 
-use crate::objects::{Objects, ObjectsError};
+use crate::objects::ObjectsError;
 use crate::solve::checkpoint::EncodedCheckpoint;
-use crate::store::{JobUpdate, Lease, LeaseState, Store, StoreError, integrity};
+use crate::store::{Lease, Store, StoreError, integrity};
 
 /// Smallest state in an object, bytes: below, a request to a bucket costs more than a row. Arbitrary.
 const SMALLEST: usize = 64 << 10;
@@ -20,7 +20,7 @@ const LONGEST: Duration = Duration::from_secs(3);
 /// Longest time for reading one.
 const LONGEST_READ: Duration = Duration::from_secs(30);
 /// Time without a try after a failure.
-const PAUSE: Duration = Duration::from_mins(1);
+pub(in crate::store) const PAUSE: Duration = Duration::from_mins(1);
 /// An object that no update has named for as long is removed, ms. Its update is refused before.
 pub(in crate::store) const REMOVED_AFTER_MS: i64 = 15 * 60 * 1000;
 /// Longest time between the note of an object and the update that names it, ms.
@@ -35,37 +35,13 @@ pub(in crate::store) struct CheckpointObject {
 }
 
 impl Store {
-    /// Writes an update and renews the lease.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn record(
-        &self,
-        lease: impl Into<Lease>,
-        update: &JobUpdate,
-        length: Duration,
-    ) -> Result<LeaseState, StoreError> {
-        let lease = lease.into();
-        if let Some(checkpoint) = &update.checkpoint
-            && let Some(objects) = &self.local().objects
-            && let Some(key) = self.put_checkpoint(objects, lease, checkpoint).await
-        {
-            let update = JobUpdate {
-                checkpoint_object: Some(key),
-                ..update.clone()
-            };
-            return self.write_update(lease, &update, length).await;
-        }
-        self.write_update(lease, update, length).await
-    }
-
     /// Writes the state of a checkpoint to an object; its key, or `None` if the database is to have it.
-    async fn put_checkpoint(
+    pub(in crate::store) async fn put_checkpoint(
         &self,
-        objects: &Objects,
         lease: Lease,
         checkpoint: &EncodedCheckpoint,
     ) -> Option<String> {
+        let objects = self.local().objects.as_ref()?;
         // What replaces the checkpoints of a copied database would never be removed.
         if checkpoint.state.len() < SMALLEST || !self.local().removes_objects {
             return None;
@@ -78,7 +54,7 @@ impl Store {
         let key = format!("checkpoints/{}/{}", lease.job, Uuid::now_v7());
         let put = async {
             self.check_mark(objects).await?;
-            self.note_checkpoint(&key).await?;
+            self.note_object(&key).await?;
             let put = objects.put_whole(&key, checkpoint.state.clone()).await;
             put.map_err(StoreError::from)
         };

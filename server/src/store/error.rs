@@ -161,6 +161,9 @@ pub enum StoreError {
         /// Address of the one that was given.
         given: String,
     },
+    /// A file that an update names is not where it was sent to.
+    #[error("the file {0} is no longer there; it has to be sent again")]
+    LostFile(String),
     /// The database has not answered in time.
     #[error("the database has not answered within {0:?}")]
     NoAnswer(std::time::Duration),

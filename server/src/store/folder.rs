@@ -3,8 +3,10 @@
 
 use std::collections::HashSet;
 use std::path::{Component, Path, PathBuf};
+use std::time::Duration;
 
 use fs_err::DirEntry;
+use tempfile::TempPath;
 use uuid::Uuid;
 
 /// Returns the path of a file or folder beside a database, by its suffix.
@@ -13,6 +15,11 @@ pub(in crate::store) fn beside(database: &Path, suffix: &str) -> PathBuf {
     name.push(suffix);
     PathBuf::from(name)
 }
+
+/// What the names of files begin with that arrive.
+const RECEIVED: &str = "received-";
+/// Longest time in which one arrives.
+const LONGEST_RECEIPT: Duration = Duration::from_hours(1);
 
 /// The folder of large results.
 #[derive(Debug, Clone)]
@@ -53,6 +60,29 @@ impl Folder {
         Ok(names
             .filter_map(|name| name.to_str()?.parse().ok())
             .collect())
+    }
+
+    /// A file for what arrives, which is removed when it is dropped.
+    pub(in crate::store) fn received(&self) -> std::io::Result<TempPath> {
+        fs_err::create_dir_all(&self.root)?;
+        let file = tempfile::Builder::new()
+            .prefix(RECEIVED)
+            .tempfile_in(&self.root)?;
+        Ok(file.into_temp_path())
+    }
+
+    /// Removes files of processes that were killed while they arrived; returns their number. Other processes may be receiving here, too.
+    pub(in crate::store) fn remove_received(&self) -> std::io::Result<usize> {
+        let mut removed = 0;
+        for entry in entries(&self.root)? {
+            let is_received = entry.file_name().to_string_lossy().starts_with(RECEIVED);
+            let age = entry.metadata()?.modified()?.elapsed();
+            if is_received && age.is_ok_and(|age| age > LONGEST_RECEIPT) {
+                fs_err::remove_file(entry.path())?;
+                removed += 1;
+            }
+        }
+        Ok(removed)
     }
 
     /// Whether it is there: as long as no job has files it is not, and neither while the disk that it is on is not mounted.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use api::job::Status;
-use tokio::sync::{Mutex, Notify, OnceCell, broadcast, mpsc};
+use tokio::sync::{Mutex, Notify, OnceCell, Semaphore, broadcast, mpsc};
 use tokio::time::Instant;
 use uuid::Uuid;
 
@@ -18,6 +18,9 @@ use crate::store::{Cancelled, DataDisk, LeaseState, Limits};
 
 /// Number of changes that a subscriber may fall behind.
 const CHANGE_CAPACITY: usize = 1024;
+
+/// Memory of the files that are written to the store of objects at the same time, MB. Arbitrary.
+pub(in crate::store) const FILE_WRITES_MB: usize = 256;
 
 /// What the processes that serve the same database are told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -42,6 +45,8 @@ pub(in crate::store) struct Local {
     pub(in crate::store) objects_checked: OnceCell<()>,
     /// Whether those that no job names are removed.
     pub(in crate::store) removes_objects: bool,
+    /// Memory for files that are written there, MB.
+    pub(in crate::store) file_writes: Semaphore,
     /// When they took no checkpoint the last time.
     pub(in crate::store) objects_failed_at: Mutex<Option<Instant>>,
     /// The machine's calibration cache.
@@ -75,6 +80,7 @@ impl Local {
             objects: None,
             objects_checked: OnceCell::new(),
             removes_objects: false,
+            file_writes: Semaphore::new(FILE_WRITES_MB),
             objects_failed_at: Mutex::default(),
             machine: beside(files, &format!("{own}.machine.json")),
             attempt_limit: limits.attempts,

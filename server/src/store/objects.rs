@@ -11,9 +11,9 @@ use futures_util::{StreamExt, stream};
 use tokio::sync::Semaphore;
 use uuid::Uuid;
 
-use crate::objects::{Objects, ObjectsError};
-use crate::store::results_to_move::{Moved, Prepared, Stored};
-use crate::store::{Store, StoreError};
+use crate::objects::{ObjectFile, Objects, ObjectsError, Source};
+use crate::store::results_to_move::{Moved, Prepared, Stored, StoredFile};
+use crate::store::{Content, Store, StoreError};
 
 /// Most jobs whose results are moved at once: they share two transactions. Arbitrary: more than a machine ends within a second.
 const JOBS: i64 = 512;
@@ -190,12 +190,50 @@ impl Store {
         } else {
             large.acquire().await.ok()
         };
+        let files = self.object_files(id, files).await?;
         match objects.put(&moved.key, &head, &files).await {
             Ok(()) => Ok(Some(moved)),
-            Err(error @ ObjectsError::Damaged { .. }) if self.local().folder.exists() => {
+            Err(error @ ObjectsError::Damaged { .. }) if self.has_files_of(id, &files) => {
                 self.kept(id, &error).await
             }
             Err(error) => Err(error.into()),
+        }
+    }
+
+    /// The files of a job as they are written, those of rows in memory.
+    async fn object_files(
+        &self,
+        id: Uuid,
+        files: Vec<StoredFile>,
+    ) -> Result<Vec<ObjectFile>, StoreError> {
+        let mut found = Vec::with_capacity(files.len());
+        for StoredFile { entry, source } in files {
+            let source = match source {
+                Some(source) => source,
+                None => match self.file_row(id, &entry.name).await? {
+                    Some((_, Content::Inline(bytes))) => Source::Bytes(bytes.into()),
+                    _ => return Err(StoreError::LostFile(entry.name)),
+                },
+            };
+            found.push(ObjectFile {
+                source,
+                bytes: entry.bytes,
+                sha256: entry.sha256,
+            });
+        }
+        Ok(found)
+    }
+
+    /// Whether a file that is missing is lost: the folder may not be mounted, or may be that of another service.
+    fn has_files_of(&self, id: Uuid, files: &[ObjectFile]) -> bool {
+        let is_local = |file: &ObjectFile| matches!(file.source, Source::File(_));
+        let folder = &self.local().folder;
+        if !files.iter().any(is_local) {
+            true
+        } else if self.is_shared() {
+            folder.has(id)
+        } else {
+            folder.exists()
         }
     }
 

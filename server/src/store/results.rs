@@ -35,8 +35,20 @@ pub struct StoredEvent {
 pub struct NewFile {
     /// Its entry in the manifest.
     pub file: ResultFile,
-    /// The content, if it is small; otherwise it is a file of that name in the attempt's folder.
-    pub content: Option<Vec<u8>>,
+    /// Its content.
+    pub content: NewContent,
+}
+
+/// Where the content of a new file is.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum NewContent {
+    /// Here.
+    Inline(Vec<u8>),
+    /// In a file of its name in the folder of the attempt.
+    Folder,
+    /// In an object of this key, which was written before ([`Store::put_file`](crate::store::Store::put_file)).
+    Object(String),
 }
 
 /// Why a content cannot be read.

@@ -5,12 +5,13 @@ use uuid::Uuid;
 
 use crate::export::documents::JSON;
 use crate::export::files::manifest_entry;
-use crate::objects::ObjectFile;
+use crate::objects::Source;
 use crate::store::block::Block;
-use crate::store::folder::Folder;
+use crate::store::local::Local;
 use crate::store::packed::{listed, pack};
-use crate::store::rows::{StoredRow, corrupt, entry, integer};
+use crate::store::rows::{StoredRow, entry, integer};
 use crate::store::stored_block::{StoredBlock, pack_events, unreadable};
+use crate::store::stored_file::source;
 use crate::store::{StoreError, StoredEvent, integrity};
 
 /// Results that were written to an object.
@@ -30,7 +31,14 @@ pub(in crate::store) struct Prepared {
     pub(in crate::store) moved: Moved,
     /// The content of the block and the events.
     pub(in crate::store) head: Vec<u8>,
-    pub(in crate::store) files: Vec<ObjectFile>,
+    pub(in crate::store) files: Vec<StoredFile>,
+}
+
+/// A file of a job.
+pub(in crate::store) struct StoredFile {
+    pub(in crate::store) entry: ResultFile,
+    /// `None` if its content is in its row.
+    pub(in crate::store) source: Option<Source>,
 }
 
 /// Results of a job as they were read from the database.
@@ -42,7 +50,7 @@ pub(in crate::store) struct Stored {
     /// All but the last one.
     pub(in crate::store) events: Vec<StoredEvent>,
     /// An error if the place of one cannot be read.
-    pub(in crate::store) files: Result<Vec<(ResultFile, ObjectFile)>, StoreError>,
+    pub(in crate::store) files: Result<Vec<StoredFile>, StoreError>,
 }
 
 impl Stored {
@@ -56,7 +64,8 @@ impl Stored {
             check(id, &entries, &content)?;
             let events = pack_events(&self.events)?;
             let events_entry = manifest_entry("events", None, JSON, &events);
-            let (of_files, files): (Vec<_>, _) = self.files?.into_iter().unzip();
+            let files = self.files?;
+            let of_files: Vec<_> = files.iter().map(|file| file.entry.clone()).collect();
             let with_files = Block::with_files(&entries, events_entry, of_files);
             let with_files = with_files.map_err(|cause| unreadable(id, &cause))?;
             let moved = Moved {
@@ -76,20 +85,16 @@ impl Stored {
     }
 }
 
-/// A file of a manifest, from its row, with its place.
+/// A file of a manifest, from its row, and where it is.
 pub(in crate::store) fn file_to_move(
-    folder: &Folder,
+    local: &Local,
     id: Uuid,
     row: &impl StoredRow,
-) -> Result<(ResultFile, ObjectFile), StoreError> {
-    let (entry, place) = (entry(row)?, row.text("place")?);
-    let path = folder.path(&place);
-    let file = ObjectFile {
-        path: path.ok_or_else(|| corrupt(id, "path of a file", &place))?,
-        bytes: entry.bytes,
-        sha256: entry.sha256.clone(),
-    };
-    Ok((entry, file))
+    object: Option<&str>,
+) -> Result<StoredFile, StoreError> {
+    let entry = entry(row)?;
+    let source = source(local, id, &entry, (row, object))?;
+    Ok(StoredFile { entry, source })
 }
 
 /// Checks the content of a block: the object will be the only copy of it.

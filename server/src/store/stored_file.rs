@@ -3,22 +3,48 @@
 use api::results::ResultFile;
 use uuid::Uuid;
 
-use crate::store::folder::Folder;
+use crate::objects::{ObjectPart, Source};
+use crate::store::local::Local;
 use crate::store::rows::{StoredRow, corrupt, entry};
 use crate::store::{Content, StoreError};
 
-/// A file and its content: in its row, or at a place in the folder of large results.
+/// A file and its content.
 pub(in crate::store) fn file(
-    folder: &Folder,
+    local: &Local,
     id: Uuid,
     row: &impl StoredRow,
+    object: Option<&str>,
 ) -> Result<(ResultFile, Content), StoreError> {
-    let content = if let Some(content) = row.optional_bytes("content")? {
-        Content::Inline(content)
-    } else {
-        let place = row.text("place")?;
-        let path = folder.path(&place);
-        Content::File(path.ok_or_else(|| corrupt(id, "path of a file", &place))?)
+    if let Some(content) = row.optional_bytes("content")? {
+        return Ok((entry(row)?, Content::Inline(content)));
+    }
+    let entry = entry(row)?;
+    let content = match source(local, id, &entry, (row, object))? {
+        Some(Source::File(path)) => Content::File(path),
+        Some(Source::Object(part)) => Content::Object(part),
+        Some(Source::Bytes(_)) | None => {
+            return Err(corrupt(id, "row of a file", &entry.name));
+        }
     };
-    Ok((entry(row)?, content))
+    Ok((entry, content))
+}
+
+/// Where the content of a file is: in an object, or at a place in the folder of large results; `None` if it is in its row.
+pub(in crate::store) fn source(
+    local: &Local,
+    id: Uuid,
+    entry: &ResultFile,
+    (row, object): (&impl StoredRow, Option<&str>),
+) -> Result<Option<Source>, StoreError> {
+    if let Some(key) = object {
+        let objects = local.objects.as_ref().ok_or(StoreError::NoObjects)?;
+        let part = ObjectPart::new(objects, key, 0..entry.bytes);
+        return Ok(Some(Source::Object(part)));
+    }
+    let Some(place) = row.optional_text("place")? else {
+        return Ok(None);
+    };
+    let path = local.folder.path(&place);
+    let path = path.ok_or_else(|| corrupt(id, "path of a file", &place))?;
+    Ok(Some(Source::File(path)))
 }

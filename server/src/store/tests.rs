@@ -37,6 +37,7 @@ mod batches;
 mod checkpoint_objects;
 mod checkpoints;
 mod columns;
+mod file_objects;
 mod files;
 mod leases;
 mod object_names;
@@ -158,21 +159,21 @@ pub(in crate::store) fn numbered(update: JobUpdate) -> JobUpdate {
 }
 
 /// An empty database, and a folder.
-pub(in crate::store) struct Place {
-    pub(in crate::store) folder: TempDir,
-    pub(in crate::store) url: String,
+pub(crate) struct Place {
+    pub(crate) folder: TempDir,
+    pub(crate) url: String,
 }
 
 impl Place {
     /// In a file in the folder.
-    pub(in crate::store) fn sqlite() -> Self {
+    pub(crate) fn sqlite() -> Self {
         let folder = TempDir::new().expect("a temporary folder");
         let url = format!("sqlite://{}", folder.path().join("test.db").display());
         Self { folder, url }
     }
 
     /// In a server that the tests share.
-    pub(in crate::store) fn postgres() -> Self {
+    pub(crate) fn postgres() -> Self {
         Self {
             folder: TempDir::new().expect("a temporary folder"),
             url: postgres::PostgresServer::shared().new_database(),
@@ -180,7 +181,7 @@ impl Place {
     }
 
     /// Where large results are.
-    pub(in crate::store) fn files(&self) -> PathBuf {
+    pub(crate) fn files(&self) -> PathBuf {
         self.folder.path().join("test.db")
     }
 }

@@ -12,6 +12,7 @@ use api::service::Demand;
 
 use crate::client::ClientError;
 use crate::metrics::Busy;
+use crate::objects::ObjectsError;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, StoreError};
 
@@ -32,6 +33,7 @@ impl EmployerError {
     /// Whether the same request may succeed later.
     pub(super) fn is_temporary(&self) -> bool {
         match self {
+            Self::Store(StoreError::Objects(ObjectsError::Damaged { .. })) => false,
             Self::Store(error) => matches!(
                 error,
                 StoreError::Database { .. }
@@ -40,6 +42,7 @@ impl EmployerError {
                     | StoreError::NoAnswer(_)
                     | StoreError::Unwritten
                     | StoreError::Objects(_)
+                    | StoreError::LostFile(_)
                     // Another service of the same database may have one.
                     | StoreError::NoObjects
             ),
@@ -103,7 +106,7 @@ pub trait Employer: Send + Sync + 'static {
         lease: Lease,
     ) -> impl Future<Output = Result<Option<EncodedCheckpoint>, EmployerError>> + Send;
 
-    /// Records an update and renews the lease. The files that the update names are in the folder of the attempt. A repeated one has
+    /// Records an update and renews the lease. The files that the update names are in the folder of the attempt, or were sent. A repeated one has
     /// no further effect.
     fn record(
         &self,

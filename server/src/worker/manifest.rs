@@ -12,7 +12,7 @@ use crate::export::documents::{Document, DocumentError, Results};
 use crate::export::files;
 use crate::export::files::FilesError;
 use crate::store::block::{Block, EncodedBlock};
-use crate::store::{NewFile, StoreError};
+use crate::store::{NewContent, NewFile, StoreError};
 use crate::worker::computed::Computed;
 
 /// Largest document that is stored in the block of the database instead of a file, bytes. Below some 100 kB a row is read
@@ -85,6 +85,6 @@ fn write(
     files::write_atomically(folder, &name, &bytes)?;
     Ok(Some(NewFile {
         file,
-        content: None,
+        content: NewContent::Folder,
     }))
 }

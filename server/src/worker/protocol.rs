@@ -8,7 +8,7 @@ use api::problem::Problem;
 use serde::{Deserialize, Serialize};
 use uuid::Uuid;
 
-use crate::store::{ClaimRequest, Lease, LeaseState};
+use crate::store::{ClaimRequest, Lease, LeaseState, NewContent};
 
 /// Program of a worker or a service: version and commit. Another one need not give the same bits.
 pub const PROGRAM: &str = concat!(
@@ -83,4 +83,11 @@ pub struct RestartBody {
     pub lease: Lease,
     /// Number of the write.
     pub number: i64,
+}
+
+/// Answer to `PUT files/{job}/{lease}/{name}`.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Taken {
+    /// Where the file is, which the update that names it has to say.
+    pub content: NewContent,
 }

@@ -11,7 +11,7 @@ use solver::record::CycleReport;
 
 use crate::number::real;
 use crate::solve::Line;
-use crate::store::{EventName, JobUpdate, NewFile};
+use crate::store::{EventName, JobUpdate, NewContent, NewFile};
 use crate::worker::computed::Computed;
 
 /// Smallest fraction of the cycles between two events.
@@ -110,7 +110,7 @@ impl UpdateBuffer {
             }
             Line::File(file) => self.update.files.push(NewFile {
                 file,
-                content: None,
+                content: NewContent::Folder,
             }),
             Line::Checkpoint(checkpoint) => self.update.checkpoint = Some(checkpoint),
             Line::Fields(_)

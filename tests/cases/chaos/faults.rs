@@ -10,7 +10,7 @@ use nix::unistd::Pid;
 use serde_json::json;
 use tests::{Log, Server, database};
 
-use super::trial::Trial;
+use super::trial::{Engine, Trial};
 
 /// Longer than a lease of the service.
 const PAST_A_LEASE: Duration = Duration::from_millis(1_500);
@@ -41,9 +41,11 @@ pub(super) enum Fault {
     /// A task of the service panics, wherever it next reads the time.
     FailTask,
     IdleFlood,
+    /// The folder of objects is not mounted for a while.
+    ObjectsAway,
 }
 
-const FAULTS: [Fault; 15] = [
+const FAULTS: [Fault; 16] = [
     Fault::KillChild,
     Fault::PauseChild,
     Fault::TerminateChild,
@@ -59,11 +61,16 @@ const FAULTS: [Fault; 15] = [
     Fault::StepClock,
     Fault::FailTask,
     Fault::IdleFlood,
+    Fault::ObjectsAway,
 ];
 
 impl Trial {
     fn can_inject(&self, fault: Fault) -> bool {
-        self.disk.is_mounted() || !matches!(fault, Fault::FillDisk | Fault::StartOnFullDisk)
+        match fault {
+            Fault::FillDisk | Fault::StartOnFullDisk => self.disk.is_mounted(),
+            Fault::ObjectsAway => self.engine == Engine::Services,
+            _ => true,
+        }
     }
 
     pub(super) fn had_every_fault(&self) -> bool {
@@ -75,12 +82,14 @@ impl Trial {
     #[expect(clippy::print_stdout, reason = "what came before a failure")]
     pub(super) async fn inject_fault(&mut self) {
         if self.next.is_empty() {
-            self.next = FAULTS.to_vec();
+            let possible = FAULTS.into_iter().filter(|fault| self.can_inject(*fault));
+            self.next = possible.collect();
             self.rng.shuffle(&mut self.next);
         }
-        let Some(fault) = self.next.pop().filter(|fault| self.can_inject(*fault)) else {
+        let Some(fault) = self.next.pop() else {
             return;
         };
+        self.hit_any();
         let moment = Duration::from_millis(self.rng.u64(..1_500));
         println!("{:8.1} s {fault:?}", self.began.elapsed().as_secs_f64());
         match fault {
@@ -104,7 +113,11 @@ impl Trial {
             Fault::FillDisk => self.disk.fill_for(moment).await,
             Fault::StartOnFullDisk => self.start_on_full_disk(moment).await,
             Fault::DamageResult => {
-                if !self.damage_result().await {
+                let is_done = match self.engine {
+                    Engine::Services => self.lose_object().await,
+                    Engine::File | Engine::Server => self.damage_result().await,
+                };
+                if !is_done {
                     self.next.insert(0, fault);
                     return;
                 }
@@ -115,6 +128,7 @@ impl Trial {
             }
             Fault::FailTask => self.clock.fail_once(),
             Fault::IdleFlood => self.flood().await,
+            Fault::ObjectsAway => self.objects_away_for(moment).await,
         }
         *self.faults.entry(fault).or_default() += 1;
         tokio::time::sleep(moment).await;
@@ -209,6 +223,41 @@ impl Trial {
         true
     }
 
+    /// Removes the object of a job; its results must not be sent until it is restored. Whether there is any.
+    async fn lose_object(&mut self) -> bool {
+        let objects = files_below(&self.results.join("jobs"));
+        let Some(path) = self.rng.choice(objects) else {
+            return false;
+        };
+        let bytes = std::fs::read(&path).expect("the object can be read");
+        let id = path.parent().and_then(|folder| folder.file_name());
+        let id = id.and_then(|id| id.to_str()).expect("the id of a job");
+        let results = format!("/v1/jobs/{id}/results");
+        let (_, manifest) = self.server().get_in_the_end(&results).await;
+        let name = manifest["files"][0]["name"].as_str().expect("a file");
+        let url = format!("{results}/files/{name}");
+        std::fs::remove_file(&path).expect("removed");
+        let (status, problem) = self.server().get_in_the_end(&url).await;
+        std::fs::write(&path, &bytes).expect("the object can be restored");
+        let kind = &problem["type"];
+        assert_eq!(
+            (status, kind),
+            (500, &json!("/problems/result-damaged")),
+            "{name}"
+        );
+        self.server().bytes_in_the_end(&url).await;
+        true
+    }
+
+    async fn objects_away_for(&self, moment: Duration) {
+        let away = self.folder.join("away");
+        std::fs::rename(&self.results, &away).expect("renamed");
+        tokio::time::sleep(moment).await;
+        // What was being written has made a folder in its place, and has failed.
+        let _ = std::fs::remove_dir_all(&self.results);
+        std::fs::rename(&away, &self.results).expect("renamed");
+    }
+
     /// Opens more connections than the service accepts, sends nothing, and asks for its health.
     async fn flood(&self) {
         let (_, most) = getrlimit(Resource::RLIMIT_NOFILE).expect("a limit");
@@ -231,6 +280,18 @@ fn files_of(results: &Path, id: &str) -> Vec<(String, PathBuf)> {
     let leases = entries(&results.join(id));
     let files = leases.iter().flat_map(|lease| entries(lease));
     files.map(|path| (id.to_owned(), path)).collect()
+}
+
+/// All files below a folder.
+pub(super) fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let below = entries(folder).into_iter().flat_map(|path| {
+        if path.is_dir() {
+            files_below(&path)
+        } else {
+            vec![path]
+        }
+    });
+    below.collect()
 }
 
 fn entries(folder: &Path) -> Vec<PathBuf> {

@@ -1,4 +1,4 @@
-//! A service under fault injection, and the jobs submitted to it.
+//! Services under fault injection, and the jobs submitted to them.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use fastrand::Rng;
 use serde_json::Value;
-use tests::{Disk, Log, Server, SteppedClock, use_postgresql};
+use tests::{Disk, Log, Server, SteppedClock, use_database, use_postgresql};
 
 use super::faults::Fault;
 
@@ -34,17 +34,29 @@ pub(super) enum Engine {
     File,
     /// A PostgreSQL server.
     Server,
+    /// A PostgreSQL server of two services, which have a store of objects and no folder in common.
+    Services,
 }
 
-/// The service, what it runs on, and what was done.
+/// One of the services.
+struct Service {
+    /// Where its files are.
+    folder: PathBuf,
+    server: Option<Server>,
+}
+
+/// The services, what they run on, and what was done.
 pub(super) struct Trial {
+    pub(super) engine: Engine,
     pub(super) began: Instant,
     pub(super) disk: Disk,
     pub(super) clock: SteppedClock,
     pub(super) folder: PathBuf,
-    /// Where the files of results are.
+    /// Where the files of results are, or their objects.
     pub(super) results: PathBuf,
-    server: Option<Server>,
+    services: Vec<Service>,
+    /// Number of the service that is asked, and that faults are of.
+    hit: usize,
     pub(super) rng: Rng,
     pub(super) accepted: Vec<String>,
     pub(super) faults: BTreeMap<Fault, u32>,
@@ -60,19 +72,33 @@ impl Trial {
     pub(super) fn new(engine: Engine, jobs: usize, seed: u64) -> Self {
         let disk = Disk::new(DISK_MB.0 + DISK_MB.1 * jobs);
         let folder = disk.path().to_owned();
-        if engine == Engine::Server {
-            use_postgresql(&folder);
+        let mut folders = vec![folder.clone()];
+        if engine != Engine::File {
+            let address = use_postgresql(&folder);
+            if engine == Engine::Services {
+                let beside = folder.join("beside");
+                std::fs::create_dir(&beside).expect("a folder");
+                use_database(&beside, &address);
+                folders.push(beside);
+            }
         }
+        let services = folders.into_iter().map(|folder| Service {
+            folder,
+            server: None,
+        });
         let mut trial = Self {
+            engine,
             began: Instant::now(),
             clock: SteppedClock::new(&folder),
             disk,
             results: folder.join(match engine {
                 Engine::File => "fretwear.db.results",
                 Engine::Server => "fretwear.results",
+                Engine::Services => "objects",
             }),
             folder,
-            server: None,
+            services: services.collect(),
+            hit: 0,
             rng: Rng::with_seed(seed),
             accepted: Vec::new(),
             faults: BTreeMap::new(),
@@ -80,12 +106,23 @@ impl Trial {
             logs: BTreeMap::new(),
             failed_tasks: 0,
         };
-        trial.start();
+        for number in 0..trial.services.len() {
+            trial.hit = number;
+            trial.start();
+        }
         trial
     }
 
+    /// Lets the next faults be of any of the services.
+    pub(super) fn hit_any(&mut self) {
+        if self.services.len() > 1 {
+            self.hit = self.rng.usize(..self.services.len());
+        }
+    }
+
     pub(super) fn server(&self) -> &Server {
-        self.server.as_ref().expect("the service runs")
+        let server = self.services[self.hit].server.as_ref();
+        server.expect("the service runs")
     }
 
     /// Starts the service, with one of the logs.
@@ -102,18 +139,34 @@ impl Trial {
 
     /// Starts the service with a log; whether it serves.
     pub(super) fn start_logging(&mut self, log: &Log) -> bool {
-        self.server = Server::start_logging(&self.folder, &OPTIONS, &self.clock.environment(), log);
-        self.server.is_some()
+        let objects = format!("file://{}", self.results.display());
+        let mut options = OPTIONS.to_vec();
+        if self.engine == Engine::Services {
+            options.extend(["--objects", &objects]);
+        }
+        let environment = self.clock.environment();
+        let service = &mut self.services[self.hit];
+        service.server = Server::start_logging(&service.folder, &options, &environment, log);
+        service.server.is_some()
     }
 
     /// Takes the service, to end it.
     pub(super) async fn take(&mut self) -> Server {
         self.count_failed_tasks().await;
-        self.server.take().expect("the service runs")
+        let server = self.services[self.hit].server.take();
+        server.expect("the service runs")
+    }
+
+    /// Adds the failures of tasks that the services have counted.
+    pub(super) async fn count_all_failed_tasks(&mut self) {
+        for number in 0..self.services.len() {
+            self.hit = number;
+            self.count_failed_tasks().await;
+        }
     }
 
     /// Adds the failures of tasks that this service has counted.
-    pub(super) async fn count_failed_tasks(&mut self) {
+    async fn count_failed_tasks(&mut self) {
         let server = self.server();
         let request = server.client.get(format!("{}/metrics", server.base));
         let Ok(answer) = request.send().await else {

@@ -15,9 +15,16 @@ use super::{ATTEMPTS, SPEC, is_long, load, report, report_size};
 /// Jobs of the sweep that wait at most in the short form.
 const AHEAD: u64 = 60;
 /// Jobs of the short form: more than a sweep queues at once.
-const JOBS: usize = 1_002;
+const JOBS: usize = 1_004;
 /// Jobs of such a sweep that are queued when it is submitted.
 const AT_ONCE: u64 = 250;
+
+/// What the sweep varies.
+const CYCLES: [u32; 4] = [2, 3, 4, 5];
+const COEFFICIENT: &str = "/interface/friction/coefficient";
+const AMPLITUDE: &str = "/motion/amplitude_mm";
+/// Values of the coefficient at most.
+const COEFFICIENTS: usize = 10_000;
 
 /// Longest wait, also of the long form; not a measure of speed.
 const PATIENCE: Duration = Duration::from_hours(2);
@@ -115,12 +122,26 @@ async fn moved(server: &Server) {
     moved.expect("results are moved in time");
 }
 
+/// The values of a sweep of so many jobs: 4 000 000 at most.
+fn axes(jobs: usize) -> [Vec<f64>; 2] {
+    let each = jobs / CYCLES.len();
+    let coefficients = each.min(COEFFICIENTS);
+    let values = |count: usize, first: f64, step: f64| {
+        let numbers = 0..u32::try_from(count).expect("small");
+        let values = numbers.map(|n| first + step * f64::from(n));
+        values.collect()
+    };
+    [
+        values(coefficients, 0.2, 1e-6),
+        values(each / coefficients, 0.02, 1e-4),
+    ]
+}
+
 /// Submits a sweep of so many jobs.
 async fn submitted(server: &Server, jobs: usize) -> Value {
     let base: Value = serde_json::from_str(SPEC).expect("JSON");
-    let coefficients = 0..u32::try_from(jobs / 3).expect("small");
-    let coefficients: Vec<f64> = coefficients.map(|n| 0.2 + 1e-6 * f64::from(n)).collect();
-    let grid = json!({"/cycles": [2, 3, 4], "/interface/friction/coefficient": coefficients});
+    let [coefficients, amplitudes] = axes(jobs);
+    let grid = json!({"/cycles": CYCLES, COEFFICIENT: coefficients, AMPLITUDE: amplitudes});
     let request = server.client.post(format!("{}/v1/sweeps", server.base));
     let request = request.json(&json!({"name": "large", "base": base, "grid": grid}));
     let answer = request.send().await.expect("the service answers");
@@ -155,8 +176,9 @@ async fn assert_whole(server: &Server, path: &str, jobs: usize) {
     assert!(rows.iter().all(|id| ids.contains(*id)), "{table}");
     assert_eq!((rows.len(), table.lines().count()), (jobs, jobs + 1));
     let (_, last) = server.get(&format!("{path}?from={}", jobs - 1)).await;
-    let coefficient = 0.2 + 1e-6 * f64::from(u32::try_from(jobs / 3 - 1).expect("small"));
-    let overrides = json!({"/cycles": 4, "/interface/friction/coefficient": coefficient});
+    let [coefficients, amplitudes] = axes(jobs);
+    let overrides =
+        json!({"/cycles": 5, COEFFICIENT: coefficients.last(), AMPLITUDE: amplitudes.last()});
     assert_eq!(last["jobs"][0]["overrides"], overrides);
 }
 

@@ -17,11 +17,14 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, StoreError>;
 
-    /// Writes an update, whose checkpoint may be in an object that was noted, and renews the lease.
+    /// Writes an update, whose checkpoint and files may be in objects that were noted, and renews the lease.
     pub(in crate::store) async fn write_update(&self, lease: Lease, update: &JobUpdate, length: Duration) -> Result<LeaseState, StoreError>;
 
-    /// Notes the key of the object of a checkpoint that is about to be written.
-    pub(in crate::store) async fn note_checkpoint(&self, key: &str) -> Result<(), StoreError>;
+    /// Notes the key of an object that is about to be written for an update; unless that names it, it is removed after a while.
+    pub(in crate::store) async fn note_object(&self, key: &str) -> Result<(), StoreError>;
+
+    /// Keeps a noted object for a length of time, or the content that it should have got; false if it is being removed.
+    pub(in crate::store) async fn keep_object(&self, key: &str, content: Option<&[u8]>, length: Duration) -> Result<bool, StoreError>;
 
     /// The object with the checkpoint of a held job; `None` if it has none, or if the lease was lost.
     pub(in crate::store) async fn checkpoint_object(&self, lease: Lease) -> Result<Option<CheckpointObject>, StoreError>;
@@ -53,10 +56,7 @@ operations! {
 
     /// Writes progress, results and files of the last update and ends the job or returns it to the queue, in one
     /// transaction. Returns the new status, or `None` if the lease was lost.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn end(&self, lease: impl Into<Lease>, update: &JobUpdate, end: &End) -> Result<Option<Status>, StoreError>;
+    pub(in crate::store) async fn write_end(&self, lease: Lease, update: &JobUpdate, end: &End) -> Result<Option<Status>, StoreError>;
 
     /// Whether a transition ends a claimed job instead of returning it to the queue.
     ///

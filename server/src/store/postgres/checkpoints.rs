@@ -1,5 +1,7 @@
 //! Checkpoints of jobs.
 
+use std::time::Duration;
+
 use sha2::{Digest, Sha256};
 use sqlx::postgres::PgConnection;
 use uuid::Uuid;
@@ -105,7 +107,7 @@ async fn name(connection: &mut PgConnection, key: &str) -> Result<bool, StoreErr
 }
 
 impl PostgresStore {
-    pub(in crate::store) async fn note_checkpoint(&self, key: &str) -> Result<(), StoreError> {
+    pub(in crate::store) async fn note_object(&self, key: &str) -> Result<(), StoreError> {
         // A service that started meanwhile may have noted another store of objects.
         let address = self.local.objects.as_ref().map(Objects::location);
         let noted = sqlx::query(
@@ -124,6 +126,23 @@ impl PostgresStore {
             stored: stored.unwrap_or_default(),
             given: address.unwrap_or_default().to_owned(),
         })
+    }
+
+    pub(in crate::store) async fn keep_object(
+        &self,
+        key: &str,
+        content: Option<&[u8]>,
+        length: Duration,
+    ) -> Result<bool, StoreError> {
+        let kept = sqlx::query(
+            "UPDATE unnamed_objects SET noted_at = fretwear_now() + $3, content = $2 WHERE key = $1 AND NOT is_removing",
+        )
+        .bind(key)
+        .bind(content)
+        .bind(integer(length.as_millis()))
+        .execute(&self.pool)
+        .await?;
+        Ok(kept.rows_affected() > 0)
     }
 
     pub(in crate::store) async fn checkpoint_object(

@@ -14,6 +14,9 @@ use crate::store::postgres::PostgresStore;
 use crate::store::postgres::job_rows::insert;
 use crate::store::rows::integer;
 
+/// Jobs that a statement adds: their specifications, of up to a megabyte each, are in memory. Arbitrary.
+const ROWS: usize = 32;
+
 impl PostgresStore {
     pub(in crate::store) async fn expansions(&self) -> Result<Vec<Expansion>, StoreError> {
         let rows = sqlx::query(
@@ -113,12 +116,16 @@ pub(super) async fn insert_jobs(
     new: &[NewBatchJob],
     now: Now,
 ) -> Result<(), StoreError> {
-    let rows = new.iter().map(|NewBatchJob { job, .. }| {
-        let row = NewRow::of(job, new_id(now.system_ms), now)?;
-        Ok((job, row))
-    });
-    let rows: Vec<_> = rows.collect::<Result<_, StoreError>>()?;
-    insert(connection, &rows, (Some(batch), now)).await?;
+    let mut ids = Vec::with_capacity(new.len());
+    for new in new.chunks(ROWS) {
+        let rows = new.iter().map(|NewBatchJob { job, .. }| {
+            let row = NewRow::of(job, new_id(now.system_ms), now)?;
+            Ok((job, row))
+        });
+        let rows: Vec<_> = rows.collect::<Result<_, StoreError>>()?;
+        insert(&mut *connection, &rows, (Some(batch), now)).await?;
+        ids.extend(rows.iter().map(|(_, row)| row.id));
+    }
     let positions = new.iter().map(|new| integer(new.position));
     let overrides = new.iter().map(|new| serde_json::to_string(&new.overrides));
     sqlx::query(
@@ -127,7 +134,7 @@ pub(super) async fn insert_jobs(
     )
     .bind(batch)
     .bind(positions.collect::<Vec<_>>())
-    .bind(rows.iter().map(|(_, row)| row.id).collect::<Vec<_>>())
+    .bind(ids)
     .bind(overrides.collect::<Result<Vec<_>, _>>()?)
     .execute(connection)
     .await?;

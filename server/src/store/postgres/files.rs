@@ -1,5 +1,6 @@
 //! Manifests: the files of a job by name, and their content.
 
+use std::borrow::Cow;
 use std::collections::HashSet;
 
 use api::results::ResultFile;
@@ -7,14 +8,15 @@ use sqlx::postgres::PgConnection;
 use uuid::Uuid;
 
 use crate::store::block::Block;
+use crate::store::file_objects::is_of_job;
 use crate::store::folder::Folder;
 use crate::store::postgres::blocks::entries;
 use crate::store::postgres::job_rows::lock;
 use crate::store::postgres::{PostgresStore, begin};
-use crate::store::rows::{entry, integer};
+use crate::store::rows::{StoredRow, entry, integer};
 use crate::store::stored_block::unreadable;
 use crate::store::stored_file::file;
-use crate::store::{Content, Lease, NewFile, StoreError};
+use crate::store::{Content, Lease, NewContent, NewFile, StoreError};
 
 impl PostgresStore {
     pub(in crate::store) async fn manifest(&self, id: Uuid) -> Result<Vec<ResultFile>, StoreError> {
@@ -48,14 +50,17 @@ impl PostgresStore {
             return Ok(None);
         }
         let row = sqlx::query(
-            "SELECT name, cycle, media_type, bytes, sha256, damaged, content, place FROM result_files WHERE job_id = $1 AND name = $2",
+            "SELECT name, cycle, media_type, bytes, sha256, damaged, content, place, object FROM result_files WHERE job_id = $1 AND name = $2",
         )
         .bind(id)
         .bind(name)
         .fetch_optional(&self.readers)
         .await?;
-        row.map(|row| file(&self.local.folder, id, &row))
-            .transpose()
+        let Some(row) = row else {
+            return Ok(None);
+        };
+        let object = row.optional_text("object")?;
+        file(&self.local, id, &row, object.as_deref()).map(Some)
     }
 
     pub(in crate::store) async fn mark_damaged(
@@ -127,8 +132,10 @@ impl PostgresStore {
                 return Ok(());
             }
         };
+        // Files of running jobs may be named later.
         let needed: Vec<Uuid> = sqlx::query_scalar(
-            "SELECT id FROM jobs LEFT JOIN result_blocks ON job_id = id WHERE id = ANY($1) AND object IS NULL",
+            "SELECT id FROM jobs WHERE id = ANY($1) AND (status = 'running' \
+             OR EXISTS (SELECT 1 FROM result_files WHERE job_id = id AND place IS NOT NULL))",
         )
         .bind(&jobs)
         .fetch_all(&self.readers)
@@ -137,8 +144,47 @@ impl PostgresStore {
         for job in jobs.into_iter().filter(|job| !needed.contains(job)) {
             self.local.remove_files(job).await;
         }
+        let remove = |folder: Folder| folder.remove_received();
+        self.local.remove_unnamed(remove).await;
         Ok(())
     }
+}
+
+/// What was sent under a key.
+enum Sent {
+    /// It is in the object.
+    Object,
+    /// It could not be written there.
+    Content(Vec<u8>),
+}
+
+/// Finds what was sent of a job's file, which gets a name: removes its note, or the content from it. `None` if nothing is known of it, or if it is
+/// being removed.
+async fn sent(
+    connection: &mut PgConnection,
+    job: Uuid,
+    key: &str,
+) -> Result<Option<Sent>, StoreError> {
+    if !is_of_job(key, job) {
+        return Ok(None);
+    }
+    let noted: Option<Option<Vec<u8>>> = sqlx::query_scalar(
+        "SELECT content FROM unnamed_objects WHERE key = $1 AND NOT is_removing FOR UPDATE",
+    )
+    .bind(key)
+    .fetch_optional(&mut *connection)
+    .await?;
+    let (sent, statement) = match noted {
+        None => return Ok(None),
+        Some(None) => (Sent::Object, "DELETE FROM unnamed_objects WHERE key = $1"),
+        // There may be an object or a part of one, too.
+        Some(Some(content)) => (
+            Sent::Content(content),
+            "UPDATE unnamed_objects SET content = NULL, noted_at = fretwear_now() WHERE key = $1",
+        ),
+    };
+    sqlx::query(statement).bind(key).execute(connection).await?;
+    Ok(Some(sent))
 }
 
 /// Adds files to the manifest, in a transaction that has checked the lease.
@@ -148,12 +194,21 @@ pub(super) async fn insert_files(
     files: &[NewFile],
 ) -> Result<(), StoreError> {
     for NewFile { file, content } in files {
-        let place = Folder::place(lease.job, lease.number, &file.name);
+        let (mut inline, mut place, mut object) = (None, None, None);
+        match content {
+            NewContent::Inline(bytes) => inline = Some(Cow::Borrowed(&bytes[..])),
+            NewContent::Folder => place = Some(Folder::place(lease.job, lease.number, &file.name)),
+            NewContent::Object(key) => match sent(connection, lease.job, key).await? {
+                Some(Sent::Object) => object = Some(key),
+                Some(Sent::Content(bytes)) => inline = Some(Cow::Owned(bytes)),
+                None => return Err(StoreError::LostFile(file.name.clone())),
+            },
+        }
         sqlx::query(
-            "INSERT INTO result_files (job_id, name, cycle, media_type, bytes, sha256, content, place) \
-             VALUES ($1, $2, $3, $4, $5, $6, $7, $8) ON CONFLICT (job_id, name) DO UPDATE SET cycle = excluded.cycle, \
+            "INSERT INTO result_files (job_id, name, cycle, media_type, bytes, sha256, content, place, object) \
+             VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9) ON CONFLICT (job_id, name) DO UPDATE SET cycle = excluded.cycle, \
              media_type = excluded.media_type, bytes = excluded.bytes, sha256 = excluded.sha256, content = excluded.content, \
-             place = excluded.place, damaged = NULL",
+             place = excluded.place, object = excluded.object, damaged = NULL",
         )
         .bind(lease.job)
         .bind(&file.name)
@@ -161,8 +216,9 @@ pub(super) async fn insert_files(
         .bind(&file.media_type)
         .bind(integer(file.bytes))
         .bind(&file.sha256)
-        .bind(content.as_deref())
-        .bind(content.is_none().then_some(place))
+        .bind(inline.as_deref())
+        .bind(place)
+        .bind(object)
         .execute(&mut *connection)
         .await?;
     }

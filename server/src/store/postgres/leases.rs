@@ -155,13 +155,12 @@ impl PostgresStore {
         Ok(LeaseState::Held { cancel_requested })
     }
 
-    pub(in crate::store) async fn end(
+    pub(in crate::store) async fn write_end(
         &self,
-        lease: impl Into<Lease>,
+        lease: Lease,
         update: &JobUpdate,
         end: &End,
     ) -> Result<Option<Status>, StoreError> {
-        let lease = lease.into();
         let write = Write {
             lease,
             update: update.clone(),

@@ -137,7 +137,7 @@ async fn remove_results(connection: &mut PgConnection, moved: &[&Moved]) -> Resu
     sqlx::query(
         "WITH texts AS (UPDATE jobs SET spec = given.listed, plan = 'null' \
          FROM unnest($1::uuid[], $2::text[]) AS given (id, listed) WHERE jobs.id = given.id), \
-         files AS (DELETE FROM result_files WHERE job_id = ANY($1) AND place IS NOT NULL) \
+         files AS (DELETE FROM result_files WHERE job_id = ANY($1)) \
          DELETE FROM events USING jobs WHERE job_id = ANY($1) AND jobs.id = job_id AND seq < last_event",
     )
     .bind(ids)

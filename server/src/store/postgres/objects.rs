@@ -16,7 +16,7 @@ impl PostgresStore {
     pub(in crate::store) async fn address_of_objects(&self) -> Result<Option<String>, StoreError> {
         let stored = sqlx::query_scalar(
             "SELECT address FROM object_store WHERE EXISTS (SELECT 1 FROM result_blocks WHERE object IS NOT NULL) \
-             OR EXISTS (SELECT 1 FROM checkpoints WHERE object IS NOT NULL) OR EXISTS (SELECT 1 FROM unnamed_objects)",
+             OR EXISTS (SELECT 1 FROM checkpoints WHERE object IS NOT NULL) OR EXISTS (SELECT 1 FROM result_files WHERE object IS NOT NULL) OR EXISTS (SELECT 1 FROM unnamed_objects)",
         );
         Ok(stored.fetch_optional(&self.pool).await?)
     }
@@ -147,7 +147,8 @@ impl PostgresStore {
             "UPDATE unnamed_objects SET is_removing = true WHERE key IN \
              (SELECT key FROM unnamed_objects WHERE noted_at <= fretwear_now() - $1 \
              AND NOT EXISTS (SELECT 1 FROM result_blocks WHERE object = key) \
-             AND NOT EXISTS (SELECT 1 FROM checkpoints WHERE object = key) LIMIT $2) RETURNING key",
+             AND NOT EXISTS (SELECT 1 FROM checkpoints WHERE object = key) \
+             AND NOT EXISTS (SELECT 1 FROM result_files WHERE object = key) LIMIT $2) RETURNING key",
         )
         .bind(REMOVED_AFTER_MS)
         .bind(most);

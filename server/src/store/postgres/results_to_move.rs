@@ -2,33 +2,38 @@
 
 use std::collections::HashMap;
 
-use api::results::ResultFile;
 use sqlx::Row;
 use sqlx::postgres::{PgConnection, PgRow};
 use uuid::Uuid;
 
-use crate::objects::ObjectFile;
-use crate::store::postgres::PostgresStore;
-use crate::store::results_to_move::{Stored, file_to_move};
+use crate::store::postgres::{PostgresStore, begin};
+use crate::store::results_to_move::{Stored, StoredFile, file_to_move};
 use crate::store::rows::StoredRow;
 use crate::store::stored_block::StoredBlock;
 use crate::store::{StoreError, StoredEvent};
+
+const READ: &str = "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY";
+/// All rows are found by their keys. Without statistics, as in a new database, the server takes the events of 32 jobs for a large part of all, and reads
+/// the whole table.
+const BY_KEYS: &str = "SELECT set_config('enable_seqscan', 'off', true)";
 
 impl PostgresStore {
     pub(in crate::store) async fn results_to_move(
         &self,
         ids: &[Uuid],
     ) -> Result<Vec<Stored>, StoreError> {
-        let mut connection = self.readers.acquire().await?;
+        let mut transaction = begin(&self.readers, Some(READ)).await?;
+        sqlx::query(BY_KEYS).execute(&mut *transaction).await?;
         let rows = sqlx::query(
             "SELECT job_id, entries, content, object, content_bytes, spec, plan FROM result_blocks JOIN jobs ON id = job_id \
              WHERE job_id = ANY($1)",
         )
         .bind(ids)
-        .fetch_all(&mut *connection)
+        .fetch_all(&mut *transaction)
         .await?;
-        let mut events = events_to_move(&mut connection, ids).await?;
-        let mut files = self.files_to_move(&mut connection, ids).await?;
+        let mut events = events_to_move(&mut transaction, ids).await?;
+        let mut files = self.files_to_move(&mut transaction, ids).await?;
+        transaction.commit().await?;
         let stored = rows.iter().map(|row| {
             let id = row.id("job_id")?;
             let (entries, content) = (row.try_get("entries")?, row.try_get("content")?);
@@ -49,10 +54,10 @@ impl PostgresStore {
         &self,
         connection: &mut PgConnection,
         ids: &[Uuid],
-    ) -> Result<HashMap<Uuid, Result<Vec<(ResultFile, ObjectFile)>, StoreError>>, StoreError> {
+    ) -> Result<HashMap<Uuid, Result<Vec<StoredFile>, StoreError>>, StoreError> {
         let rows = sqlx::query(
-            "SELECT job_id, name, cycle, media_type, bytes, sha256, damaged, place FROM result_files \
-             WHERE job_id = ANY($1) AND place IS NOT NULL ORDER BY job_id, name COLLATE \"C\"",
+            "SELECT job_id, name, cycle, media_type, bytes, sha256, damaged, place, object FROM result_files \
+             WHERE job_id = ANY($1) ORDER BY job_id, name COLLATE \"C\"",
         )
         .bind(ids)
         .fetch_all(connection)
@@ -61,11 +66,13 @@ impl PostgresStore {
         for row in rows {
             rows_of.entry(row.id("job_id")?).or_default().push(row);
         }
-        let folder = &self.local.folder;
-        let files = rows_of.into_iter().map(|(id, rows)| {
-            let files = rows.iter().map(|row| file_to_move(folder, id, row));
-            (id, files.collect())
-        });
+        let file = |id, row: &PgRow| {
+            let object = row.optional_text("object")?;
+            file_to_move(&self.local, id, row, object.as_deref())
+        };
+        let files = rows_of
+            .into_iter()
+            .map(|(id, rows)| (id, rows.iter().map(|row| file(id, row)).collect()));
         Ok(files.collect())
     }
 }

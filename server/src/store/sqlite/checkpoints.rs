@@ -1,5 +1,7 @@
 //! Checkpoints of jobs.
 
+use std::time::Duration;
+
 use sha2::{Digest, Sha256};
 use sqlx::{Sqlite, SqliteConnection, Transaction};
 use uuid::Uuid;
@@ -114,7 +116,7 @@ async fn name(transaction: &mut Transaction<'_, Sqlite>, key: &str) -> Result<bo
 }
 
 impl SqliteStore {
-    pub(in crate::store) async fn note_checkpoint(&self, key: &str) -> Result<(), StoreError> {
+    pub(in crate::store) async fn note_object(&self, key: &str) -> Result<(), StoreError> {
         self.local.disk.check()?;
         sqlx::query("INSERT INTO unnamed_objects (key, noted_at) VALUES (?, ?)")
             .bind(key)
@@ -122,6 +124,19 @@ impl SqliteStore {
             .execute(&self.writer)
             .await?;
         Ok(())
+    }
+
+    #[expect(
+        clippy::unused_async,
+        reason = "the one service of a file has files of attempts in its folder"
+    )]
+    pub(in crate::store) async fn keep_object(
+        &self,
+        _key: &str,
+        _content: Option<&[u8]>,
+        _length: Duration,
+    ) -> Result<bool, StoreError> {
+        Ok(false)
     }
 
     pub(in crate::store) async fn checkpoint_object(

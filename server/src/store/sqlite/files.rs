@@ -15,7 +15,7 @@ use crate::store::sqlite::blocks::{entries, update_entries};
 use crate::store::sqlite::queries::BEGIN;
 use crate::store::stored_block::unreadable;
 use crate::store::stored_file::file;
-use crate::store::{Content, Lease, NewFile, StoreError};
+use crate::store::{Content, Lease, NewContent, NewFile, StoreError};
 
 impl SqliteStore {
     pub(in crate::store) async fn manifest(&self, id: Uuid) -> Result<Vec<ResultFile>, StoreError> {
@@ -47,8 +47,7 @@ impl SqliteStore {
         .bind(name)
         .fetch_optional(&self.readers)
         .await?;
-        row.map(|row| file(&self.local.folder, id, &row))
-            .transpose()
+        row.map(|row| file(&self.local, id, &row, None)).transpose()
     }
 
     pub(in crate::store) async fn mark_damaged(
@@ -115,7 +114,13 @@ pub(super) async fn insert_files(
     files: &[NewFile],
 ) -> Result<(), StoreError> {
     for NewFile { file, content } in files {
-        let place = Folder::place(lease.job, lease.number, &file.name);
+        let (mut inline, mut place) = (None, None);
+        match content {
+            NewContent::Inline(bytes) => inline = Some(&bytes[..]),
+            NewContent::Folder => place = Some(Folder::place(lease.job, lease.number, &file.name)),
+            // The one service of a file has them in its folder.
+            NewContent::Object(_) => return Err(StoreError::LostFile(file.name.clone())),
+        }
         sqlx::query(
             "INSERT OR REPLACE INTO result_files (job_id, name, cycle, media_type, bytes, sha256, content, place) \
              VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
@@ -126,8 +131,8 @@ pub(super) async fn insert_files(
         .bind(&file.media_type)
         .bind(integer(file.bytes))
         .bind(&file.sha256)
-        .bind(content.as_deref())
-        .bind(content.is_none().then_some(place))
+        .bind(inline)
+        .bind(place)
         .execute(&mut **transaction)
         .await?;
     }

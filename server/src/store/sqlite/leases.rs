@@ -169,18 +169,17 @@ impl SqliteStore {
         Ok(LeaseState::Held { cancel_requested })
     }
 
-    pub(in crate::store) async fn end(
+    pub(in crate::store) async fn write_end(
         &self,
-        lease: impl Into<Lease>,
+        lease: Lease,
         update: &JobUpdate,
         end: &End,
     ) -> Result<Option<Status>, StoreError> {
-        let lease = lease.into();
-        let write = || self.write_end(lease, update, end);
+        let write = || self.end_in_transaction(lease, update, end);
         self.local.disk.with_reserve(write).await
     }
 
-    async fn write_end(
+    async fn end_in_transaction(
         &self,
         lease: Lease,
         update: &JobUpdate,

@@ -1,12 +1,10 @@
 //! Results of jobs as they are read to be moved.
 
-use api::results::ResultFile;
 use sqlx::SqliteConnection;
 use uuid::Uuid;
 
-use crate::objects::ObjectFile;
 use crate::store::StoreError;
-use crate::store::results_to_move::{Stored, file_to_move};
+use crate::store::results_to_move::{Stored, StoredFile, file_to_move};
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::blocks::stored_block;
 use crate::store::sqlite::events::events_to_move;
@@ -52,7 +50,7 @@ impl SqliteStore {
         &self,
         connection: &mut SqliteConnection,
         id: Uuid,
-    ) -> Result<Result<Vec<(ResultFile, ObjectFile)>, StoreError>, StoreError> {
+    ) -> Result<Result<Vec<StoredFile>, StoreError>, StoreError> {
         let rows = sqlx::query(
             "SELECT name, cycle, media_type, bytes, sha256, damaged, place FROM result_files \
              WHERE job_id = ? AND place IS NOT NULL ORDER BY name",
@@ -60,7 +58,7 @@ impl SqliteStore {
         .bind(id.to_string())
         .fetch_all(connection)
         .await?;
-        let file = |row| file_to_move(&self.local.folder, id, row);
+        let file = |row| file_to_move(&self.local, id, row, None);
         Ok(rows.iter().map(file).collect())
     }
 }

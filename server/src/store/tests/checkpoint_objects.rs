@@ -35,7 +35,7 @@ fn update_with(checkpoint: EncodedCheckpoint) -> JobUpdate {
 
 impl WithObjects {
     /// A claimed job.
-    async fn running(&self) -> Claim {
+    pub(super) async fn running(&self) -> Claim {
         self.queued().await;
         self.store.claim_next(i64::MAX).await.expect("a job")
     }
@@ -60,7 +60,7 @@ impl WithObjects {
     }
 
     /// A job that was given back, under its next lease.
-    async fn released(&self, claim: &Claim) -> Claim {
+    pub(super) async fn released(&self, claim: &Claim) -> Claim {
         let release = end(Transition::Release);
         let last = JobUpdate::default();
         let status = self.store.end_next(claim, &last, &release).await;
@@ -159,7 +159,7 @@ async fn a_damaged_or_missing_checkpoint_is_none(database: WithObjects) {
 
 async fn an_object_that_is_being_written_is_not_removed(database: WithObjects) {
     let key = "checkpoints/new";
-    database.store.note_checkpoint(key).await.expect("noted");
+    database.store.note_object(key).await.expect("noted");
     let address = format!("file://{}", database.folder().display());
     let objects = Objects::open(&address).expect("opened");
     objects.mark().await.expect("marked");

@@ -15,7 +15,7 @@ fn written(store: &Store, claim: &Claim, name: &str) -> NewFile {
     files::write_atomically(&store.attempt_folder(claim), name, b"fields").expect("written");
     NewFile {
         file: files::manifest_entry(name, Some(1), VTU, b"fields"),
-        content: None,
+        content: NewContent::Folder,
     }
 }
 
@@ -63,7 +63,7 @@ async fn a_document_in_a_block_replaces_the_file_that_an_earlier_end_has_left(fi
     let old = JobUpdate {
         files: vec![NewFile {
             file: files::manifest_entry("wear-history.csv", None, CSV, b"old"),
-            content: Some(b"old".to_vec()),
+            content: NewContent::Inline(b"old".to_vec()),
         }],
         ..JobUpdate::default()
     };

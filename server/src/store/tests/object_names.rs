@@ -35,6 +35,7 @@ async fn objects_that_are_named_twice_stay(database: WithObjects) {
 async fn an_earlier_store_is_marked_if_it_has_the_objects(database: WithObjects) {
     let id = database.ended(Transition::Succeed).await;
     database.moved().await;
+    database.ended(Transition::Succeed).await;
     let folder = database.place.folder.path().join("objects");
     let address = format!("file://{}", folder.display());
     // Its mark is forgotten with its address.
@@ -50,7 +51,6 @@ async fn an_earlier_store_is_marked_if_it_has_the_objects(database: WithObjects)
     std::fs::rename(&folder, &unmounted).expect("renamed");
     let store = Arc::new(opened(&place, Some("objects")).await.expect("a store"));
     let database = WithObjects { place, store };
-    database.ended(Transition::Succeed).await;
     let (moved, ended) = database.store.move_results().await;
     assert!(moved.is_empty() && matches!(ended, Err(StoreError::Objects(_))));
     std::fs::remove_dir(&folder).expect("nothing is in it");

@@ -34,11 +34,24 @@ impl WithObjects {
         Self { place, store }
     }
 
-    /// Paths of all objects.
+    /// Paths of all objects but those of files of attempts.
     pub(super) fn objects(&self) -> Vec<PathBuf> {
         let files = files_below(&self.place.folder.path().join("objects"));
-        let is_mark = |path: &PathBuf| path.ends_with("fretwear-objects");
-        files.into_iter().filter(|path| !is_mark(path)).collect()
+        let is_other = |path: &PathBuf| path.ends_with("fretwear-objects") || is_of_attempt(path);
+        files.into_iter().filter(|path| !is_other(path)).collect()
+    }
+
+    /// Paths of the files of attempts: objects of several services, in the folder of one.
+    pub(super) fn files(&self) -> Vec<PathBuf> {
+        let folder = self.place.folder.path();
+        if !self.store.is_shared() {
+            return files_below(&folder.join("test.db.results"));
+        }
+        let objects = files_below(&folder.join("objects"));
+        objects
+            .into_iter()
+            .filter(|path| is_of_attempt(path))
+            .collect()
     }
 
     /// A job that has ended with a document, a file, rows and snapshots.
@@ -57,7 +70,7 @@ impl WithObjects {
         let update = JobUpdate {
             files: vec![NewFile {
                 file: files::manifest_entry("a.vtu", Some(1), VTU, b"fields"),
-                content: None,
+                content: NewContent::Folder,
             }],
             snapshots: vec![snapshot(2)],
             events: vec![(EventName::Cycle, "{}".to_owned()); 2],
@@ -97,6 +110,11 @@ pub(super) async fn opened(place: &Place, objects: Option<&str>) -> Result<Store
     let objects = objects.map(|name| Objects::open(&address(name)).expect("opened"));
     let store = Store::open_with(&place.url, &place.files(), Limits::default()).await?;
     store.with_objects(objects).await
+}
+
+fn is_of_attempt(object: &Path) -> bool {
+    let mut folders = object.components();
+    folders.any(|folder| folder.as_os_str() == "files")
 }
 
 /// Paths of all files below a folder.
@@ -167,13 +185,14 @@ async fn results_of_a_failed_job_are_not_moved(database: WithObjects) {
 async fn results_stay_while_the_store_of_objects_fails(database: WithObjects) {
     let objects = database.place.folder.path().join("objects");
     let id = database.ended(Transition::Succeed).await;
-    std::fs::remove_dir(&objects).expect("removed");
+    let away = database.place.folder.path().join("away");
+    std::fs::rename(&objects, &away).expect("renamed");
     std::fs::write(&objects, "").expect("a file in its place");
     let (moved, ended) = database.store.move_results().await;
     assert!(moved.is_empty() && matches!(ended, Err(StoreError::Objects(_))));
     assert_eq!(database.read(id, "b.csv").await.expect("read"), b"cycle");
     std::fs::remove_file(&objects).expect("removed");
-    std::fs::create_dir(&objects).expect("a folder");
+    std::fs::rename(&away, &objects).expect("renamed");
     assert_eq!(database.moved().await, [id]);
     assert_eq!(database.objects().len(), 1);
 }
@@ -182,7 +201,7 @@ async fn results_stay_while_the_store_of_objects_fails(database: WithObjects) {
 async fn objects_without_a_name_are_removed(database: WithObjects) {
     let id = database.ended(Transition::Succeed).await;
     let objects = database.place.folder.path().join("objects");
-    std::fs::create_dir(objects.join("jobs")).expect("a folder");
+    std::fs::create_dir_all(objects.join("jobs")).expect("a folder");
     std::fs::write(objects.join("jobs/left"), "").expect("written");
     database
         .store
@@ -198,8 +217,7 @@ async fn objects_without_a_name_are_removed(database: WithObjects) {
 
 async fn a_job_with_a_damaged_file_keeps_its_results_and_others_are_moved(database: WithObjects) {
     let damaged = database.ended(Transition::Succeed).await;
-    let results = database.place.folder.path().join("test.db.results");
-    let [file] = &files_below(&results)[..] else {
+    let [file] = &database.files()[..] else {
         panic!("one file");
     };
     std::fs::write(file, "field").expect("shortened");
@@ -254,9 +272,15 @@ async fn a_database_whose_results_are_elsewhere_is_not_opened_without_them(datab
     database.ended(Transition::Succeed).await;
     database.store.close().await;
     let WithObjects { place, store } = database;
+    // Nothing was moved so far, but several services have files there.
+    let before = [None, Some("other"), Some("objects")];
+    let usable = if store.is_shared() {
+        &before[2..]
+    } else {
+        &before
+    };
     drop(store);
-    // Nothing was moved so far.
-    for objects in [None, Some("other"), Some("objects")] {
+    for &objects in usable {
         let store = opened(&place, objects).await.expect("a store");
         store.close().await;
     }

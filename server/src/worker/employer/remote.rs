@@ -22,7 +22,7 @@ use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::{
     Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, NewFile, Write, WriteKind,
 };
-use crate::worker::protocol::{ClaimBody, LeasesBody, PROGRAM, RestartBody, WriteAnswer};
+use crate::worker::protocol::{ClaimBody, LeasesBody, PROGRAM, RestartBody, Taken, WriteAnswer};
 
 /// Where writes are sent.
 const WRITES: &str = "/v1/worker/writes";
@@ -109,15 +109,20 @@ impl Remote {
         Ok(answer)
     }
 
-    /// Sends files of an attempt, which count once a write names them.
-    async fn put_files(&self, lease: Lease, files: &[NewFile]) -> Result<(), EmployerError> {
-        let Lease { job, number } = lease;
-        for NewFile { file, .. } in files {
+    /// Sends the files of an update, which count once it is written; the update with where they are.
+    async fn put_files(
+        &self,
+        lease: Lease,
+        update: &JobUpdate,
+    ) -> Result<JobUpdate, EmployerError> {
+        let (Lease { job, number }, mut update) = (lease, update.clone());
+        for NewFile { file, content } in &mut update.files {
             let path = format!("/v1/worker/files/{job}/{number}/{}", file.name);
-            let content = self.folder(lease).join(&file.name);
-            self.client.put_file(&path, &content, file).await?;
+            let sent = self.folder(lease).join(&file.name);
+            let taken: Taken = self.client.put_file(&path, &sent, file).await?;
+            *content = taken.content;
         }
-        Ok(())
+        Ok(update)
     }
 
     /// Notes the state of a lease that the service has answered with.
@@ -172,10 +177,9 @@ impl Employer for Remote {
         update: &JobUpdate,
         length: Duration,
     ) -> Result<LeaseState, EmployerError> {
-        self.put_files(lease, &update.files).await?;
         let write = Write {
             lease,
-            update: update.clone(),
+            update: self.put_files(lease, update).await?,
             kind: WriteKind::Renew(length),
         };
         match self.write(write).await? {
@@ -196,14 +200,16 @@ impl Employer for Remote {
         update: &JobUpdate,
         end: &End,
     ) -> Result<Option<Status>, EmployerError> {
-        match self.put_files(lease, &update.files).await {
+        let update = match self.put_files(lease, update).await {
             // An end whose answer was lost has ended the lease.
-            Err(EmployerError::Remote(error)) if error.is_of_type("/problems/lease-lost") => {}
+            Err(EmployerError::Remote(error)) if error.is_of_type("/problems/lease-lost") => {
+                update.clone()
+            }
             sent => sent?,
-        }
+        };
         let write = Write {
             lease,
-            update: update.clone(),
+            update,
             kind: WriteKind::End(Box::new(end.clone())),
         };
         match self.write(write).await? {

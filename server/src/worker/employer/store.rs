@@ -72,8 +72,12 @@ impl Employer for Store {
         Ok(finish(self, lease, update, end).await?)
     }
 
-    fn abandon(&self, _lease: Lease) {
-        // An attempt renews its own lease.
+    /// An attempt renews its own lease. Its files stay where they have names there.
+    fn abandon(&self, lease: Lease) {
+        if self.has_files_as_objects() {
+            // There is none if the solve has written no files.
+            let _ = fs_err::remove_dir_all(self.attempt_folder(lease));
+        }
     }
 
     fn folder(&self, lease: Lease) -> PathBuf {

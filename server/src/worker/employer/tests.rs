@@ -16,18 +16,19 @@ use crate::client::Client;
 use crate::export::documents::{CSV, VTU};
 use crate::export::files;
 use crate::http::tests::{Service, row};
+use crate::objects::Objects;
 use crate::queue::Transition;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::block::Block;
-use crate::store::tests::request;
-use crate::store::{ClaimedCheckpoint, EventName, NewFile};
+use crate::store::tests::{Place, request};
+use crate::store::{ClaimedCheckpoint, EventName, Limits, NewContent, NewFile, Store};
 
 /// Length of a lease.
 const LENGTH: Duration = Duration::from_secs(30);
 /// Longest wait of a test; not a measure of speed.
 const TEST_TIMEOUT: Duration = Duration::from_mins(1);
 
-/// Runs a suite with the store of a service as employer, and with the service over HTTP.
+/// Runs a suite with the store of a service as employer, and with the service over HTTP; also where files and checkpoints are objects.
 macro_rules! with_both {
     ($($name:ident => $suite:ident;)+) => {
         mod the_store {
@@ -50,6 +51,31 @@ macro_rules! with_both {
                 }
             )+
         }
+
+        mod the_store_with_objects {
+            $(
+                #[tokio::test]
+                #[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
+                async fn $name() {
+                    let place = super::Place::postgres();
+                    let (service, _place) = super::service_with_objects(place).await;
+                    super::$suite(&*service.app.store, &service).await;
+                }
+            )+
+        }
+
+        mod a_service_with_objects {
+            $(
+                #[tokio::test]
+                #[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
+                async fn $name() {
+                    let place = super::Place::postgres();
+                    let (service, _place) = super::service_with_objects(place).await;
+                    let (remote, _scratch, _stop) = super::remote(&service).await;
+                    super::$suite(&remote, &service).await;
+                }
+            )+
+        }
     };
 }
 
@@ -62,6 +88,17 @@ with_both! {
     a_worker_that_has_lost_its_lease_changes_nothing => lost;
     a_restarted_run_has_no_earlier_results => restarted;
     nothing_waits_or_runs_at_the_end => idle;
+}
+
+/// A service whose large checkpoints are objects in a folder, and on a server its files, too.
+async fn service_with_objects(place: Place) -> (Service, Place) {
+    let address = format!("file://{}", place.folder.path().join("objects").display());
+    let objects = Objects::open(&address).expect("opened");
+    let store = Store::open_with(&place.url, &place.files(), Limits::default()).await;
+    let store = store.expect("a store").with_objects(Some(objects)).await;
+    let mut service = Service::new().await;
+    service.app.store = Arc::new(store.expect("a store"));
+    (service, place)
 }
 
 /// The service as an employer over HTTP, until the guard is dropped.
@@ -177,7 +214,7 @@ async fn finished(employer: &impl Employer, service: &Service) {
     let with_file = JobUpdate {
         files: vec![NewFile {
             file: file.clone(),
-            content: None,
+            content: NewContent::Folder,
         }],
         ..update(1, 5)
     };
@@ -220,7 +257,7 @@ async fn documented(employer: &impl Employer, service: &Service) {
         number: 2,
         files: vec![NewFile {
             file: large.clone(),
-            content: None,
+            content: NewContent::Folder,
         }],
         block: Some(block.encode().expect("encoded")),
         ..JobUpdate::default()

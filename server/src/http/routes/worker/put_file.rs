@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
+use axum::Json;
 use axum::body::Body;
 use axum::extract::{Path as Parameters, Query, State};
-use axum::http::StatusCode;
 use futures_util::StreamExt;
 use serde::Deserialize;
 use tokio::io::AsyncWriteExt;
@@ -13,8 +13,10 @@ use uuid::Uuid;
 use crate::export::files::{create_folder, is_full, is_plain_name};
 use crate::http::app::App;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
+use crate::objects::{ObjectFile, Source};
 use crate::store::integrity::Checksum;
-use crate::store::{Lease, LeaseState};
+use crate::store::{Lease, LeaseState, NewContent};
+use crate::worker::protocol::Taken;
 
 /// Why a file is not taken.
 #[derive(Debug, thiserror::Error)]
@@ -58,13 +60,13 @@ pub(crate) struct Announced {
     sha256: String,
 }
 
-/// Writes a file into the folder of the attempt, under its name once it is complete.
+/// Takes a file into the folder of the attempt, or into an object.
 pub(crate) async fn put_file(
     State(app): State<App>,
     Parameters((job, number, name)): Parameters<(Uuid, i64, String)>,
     Query(announced): Query<Announced>,
     body: Body,
-) -> Result<StatusCode, ProblemResponse> {
+) -> Result<Json<Taken>, ProblemResponse> {
     if !is_plain_name(&name) {
         return Err(FileError::Name(name).into());
     }
@@ -72,12 +74,47 @@ pub(crate) async fn put_file(
     if app.store.lease_state(lease).await? == LeaseState::Lost {
         return Err(FileError::LeaseLost(lease).into());
     }
-    let folder = app.store.attempt_folder(lease);
-    create_folder(&folder).map_err(FileError::Write)?;
-    let unfinished = folder.join(format!("{name}.{}.unfinished", Uuid::now_v7()));
-    let written = receive(body, &unfinished, (&name, announced.sha256)).await;
-    let renamed = match written {
-        Ok(()) => tokio::fs::rename(&unfinished, folder.join(&name))
+    let sent = Sent {
+        lease,
+        name,
+        sha256: announced.sha256,
+    };
+    let content = if app.store.has_files_as_objects() {
+        into_object(&app, body, sent).await?
+    } else {
+        into_folder(&app, body, sent).await?
+    };
+    Ok(Json(Taken { content }))
+}
+
+/// A file that is sent.
+struct Sent {
+    lease: Lease,
+    name: String,
+    /// As it was announced.
+    sha256: String,
+}
+
+/// Receives a file and writes it to an object.
+async fn into_object(app: &App, body: Body, sent: Sent) -> Result<NewContent, ProblemResponse> {
+    let path = app.store.received_file().map_err(FileError::Write)?;
+    let bytes = receive(body, &path, &sent).await?;
+    let file = ObjectFile {
+        source: Source::File(path.to_path_buf()),
+        bytes,
+        sha256: sent.sha256,
+    };
+    let key = app.store.put_file(sent.lease, &file).await?;
+    Ok(NewContent::Object(key))
+}
+
+/// Receives a file into the folder of its attempt, under its name once it is complete.
+async fn into_folder(app: &App, body: Body, sent: Sent) -> Result<NewContent, FileError> {
+    let folder = app.store.attempt_folder(sent.lease);
+    create_folder(&folder)?;
+    let unfinished = folder.join(format!("{}.{}.unfinished", sent.name, Uuid::now_v7()));
+    let renamed = match receive(body, &unfinished, &sent).await {
+        Ok(_) => tokio::fs::rename(&unfinished, folder.join(&sent.name))
             .await
             .map_err(FileError::Write),
         Err(error) => Err(error),
@@ -86,27 +123,29 @@ pub(crate) async fn put_file(
         // There may be none.
         let _ = tokio::fs::remove_file(&unfinished).await;
     }
-    Ok(renamed.map(|()| StatusCode::NO_CONTENT)?)
+    renamed.map(|()| NewContent::Folder)
 }
 
-/// Writes a body as a file and compares its checksum.
-async fn receive(body: Body, path: &Path, (name, named): (&str, String)) -> Result<(), FileError> {
+/// Writes a body as a file and compares its checksum; its length.
+async fn receive(body: Body, path: &Path, sent: &Sent) -> Result<u64, FileError> {
     let mut file = tokio::fs::File::create(path).await?;
     let (mut chunks, mut checksum) = (body.into_data_stream(), Checksum::default());
+    let mut bytes = 0;
     while let Some(chunk) = chunks.next().await {
         let chunk = chunk.map_err(FileError::Broken)?;
         checksum.update(&chunk);
+        bytes += u64::try_from(chunk.len()).unwrap_or(u64::MAX);
         file.write_all(&chunk).await?;
     }
     file.sync_all().await?;
     let found = checksum.sha256();
-    if found == named {
-        return Ok(());
+    if found == sent.sha256 {
+        return Ok(bytes);
     }
     Err(FileError::Differs {
-        name: name.to_owned(),
+        name: sent.name.clone(),
         found,
-        named,
+        named: sent.sha256.clone(),
     })
 }
 
@@ -130,7 +169,7 @@ mod tests {
             service.put(&path, "fields").await.as_u16()
         };
         let right = sha256(b"fields");
-        assert_eq!(put(claim.lease, "a.vtu", &right).await, 204);
+        assert_eq!(put(claim.lease, "a.vtu", &right).await, 200);
         assert_eq!(
             std::fs::read(folder.join("a.vtu")).expect("a file"),
             b"fields"

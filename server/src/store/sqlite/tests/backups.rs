@@ -7,7 +7,9 @@ use crate::export::documents::VTU;
 use crate::export::files;
 use crate::store::sqlite::backup::{copy_database, copy_named_files};
 use crate::store::tests::{Fixture, with_checkpoint};
-use crate::store::{BackupError, Claim, JobUpdate, NewFile, Store, backup, restore, verify};
+use crate::store::{
+    BackupError, Claim, JobUpdate, NewContent, NewFile, Store, backup, restore, verify,
+};
 
 /// Writes a file of an attempt; returns the update that names it.
 fn with_file(store: &Store, claim: &Claim) -> JobUpdate {
@@ -15,7 +17,7 @@ fn with_file(store: &Store, claim: &Claim) -> JobUpdate {
     JobUpdate {
         files: vec![NewFile {
             file: files::manifest_entry("a.vtu", Some(1), VTU, b"fields"),
-            content: None,
+            content: NewContent::Folder,
         }],
         ..with_checkpoint(3)
     }

@@ -1,31 +1,16 @@
 //! A checkpoint that does not come with its claim, with the store and over HTTP.
 
 use super::*;
-use crate::objects::Objects;
-use crate::store::Store;
-
-/// A service whose large checkpoints are objects in a folder.
-async fn service_with_objects() -> (Service, TempDir) {
-    let folder = TempDir::new().expect("a folder");
-    let url = format!("sqlite://{}", folder.path().join("objects.db").display());
-    let address = format!("file://{}", folder.path().join("objects").display());
-    let objects = Objects::open(&address).expect("opened");
-    let store = Store::open(&url).await.expect("a store");
-    let store = store.with_objects(Some(objects)).await;
-    let mut service = Service::new().await;
-    service.app.store = Arc::new(store.expect("a store"));
-    (service, folder)
-}
 
 #[tokio::test]
 async fn the_store_is_asked_for_it() {
-    let (service, _folder) = service_with_objects().await;
+    let (service, _place) = service_with_objects(Place::sqlite()).await;
     is_asked_for(&*service.app.store, &service).await;
 }
 
 #[tokio::test]
 async fn a_service_is_asked_for_it() {
-    let (service, _folder) = service_with_objects().await;
+    let (service, _place) = service_with_objects(Place::sqlite()).await;
     let (remote, _scratch, _stop) = remote(&service).await;
     is_asked_for(&remote, &service).await;
 }

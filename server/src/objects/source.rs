@@ -1,0 +1,112 @@
+//! Files that belong into an object.
+
+use std::io;
+use std::path::PathBuf;
+
+use bytes::Bytes;
+use futures_util::stream::BoxStream;
+use futures_util::{StreamExt, TryStreamExt, stream};
+use tokio_util::io::ReaderStream;
+
+use super::{ObjectPart, ObjectsError};
+use crate::export::files::sha256;
+
+/// Size of the chunks in which a file is read, bytes.
+const CHUNK_BYTES: usize = 64 << 10;
+
+/// A file that belongs into an object.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ObjectFile {
+    /// Where it is.
+    pub source: Source,
+    /// Its length.
+    pub bytes: u64,
+    /// Its SHA-256, hexadecimal.
+    pub sha256: String,
+}
+
+/// Where such a file is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Source {
+    /// On this machine.
+    File(PathBuf),
+    /// In an object.
+    Object(ObjectPart),
+    /// In memory.
+    Bytes(Bytes),
+}
+
+impl ObjectFile {
+    /// Reads all of it.
+    ///
+    /// # Errors
+    /// [`ObjectsError`] if it cannot be read, or is missing or another one.
+    pub async fn read(&self) -> Result<Vec<u8>, ObjectsError> {
+        let (mut bytes, mut chunks) = (Vec::new(), self.source.open().await?);
+        while let Some(chunk) = chunks.next().await {
+            bytes.extend_from_slice(&chunk?);
+        }
+        let length = u64::try_from(bytes.len()).unwrap_or(u64::MAX);
+        self.check(length, &sha256(&bytes))?;
+        Ok(bytes)
+    }
+
+    /// Compares length and checksum of what was read.
+    pub(super) fn check(&self, bytes: u64, sha256: &str) -> Result<(), ObjectsError> {
+        if (bytes, sha256) == (self.bytes, &self.sha256) {
+            return Ok(());
+        }
+        Err(self.source.damaged(format!(
+            "it has {bytes} bytes with the SHA-256 {sha256}, and should have {} with {}",
+            self.bytes, self.sha256
+        )))
+    }
+}
+
+impl Source {
+    /// Reads it in chunks.
+    pub(super) async fn open(
+        &self,
+    ) -> Result<BoxStream<'static, Result<Bytes, ObjectsError>>, ObjectsError> {
+        match self {
+            Self::File(path) => {
+                let file = tokio::fs::File::open(path).await;
+                let file = file.map_err(|cause| unread(path.clone(), cause))?;
+                let chunks = ReaderStream::with_capacity(file, CHUNK_BYTES);
+                let path = path.clone();
+                Ok(chunks
+                    .map_err(move |cause| unread(path.clone(), cause))
+                    .boxed())
+            }
+            Self::Object(part) => match part.stream(0..part.length()).await {
+                Err(error @ ObjectsError::Missing(_)) => Err(self.damaged(error.to_string())),
+                chunks => chunks,
+            },
+            Self::Bytes(bytes) => {
+                let bytes = bytes.clone();
+                Ok(stream::once(async { Ok(bytes) }).boxed())
+            }
+        }
+    }
+
+    /// The error of one that is missing or another one.
+    fn damaged(&self, how: String) -> ObjectsError {
+        let what = match self {
+            Self::File(path) => path.display().to_string(),
+            Self::Object(part) => format!("the object {}", part.key()),
+            Self::Bytes(_) => "a file of the database".to_owned(),
+        };
+        ObjectsError::Damaged { what, how }
+    }
+}
+
+/// The error of a file that cannot be read.
+fn unread(path: PathBuf, cause: io::Error) -> ObjectsError {
+    match cause.kind() {
+        io::ErrorKind::NotFound => ObjectsError::Damaged {
+            what: path.display().to_string(),
+            how: "it does not exist".to_owned(),
+        },
+        _ => ObjectsError::File { path, cause },
+    }
+}

@@ -1,0 +1,165 @@
+//! Files of attempts in a store of objects, where several services have one: they need no folder in common.
+//!
+//! A file is written to an object before the update that names it, by the service that gets it from a remote worker, or by that of the worker. Its key is
+//! noted first, and the note is removed in the transaction of the update. While the store of objects takes none, the note has the content, and the
+//! update takes it from there, so that no job waits for the store. A succeeded job's files are moved into its one object with its other results.
+
+use std::borrow::Cow;
+use std::time::Duration;
+
+use tempfile::TempPath;
+use tokio::time::{Instant, timeout};
+use uuid::Uuid;
+
+use crate::objects::{ObjectFile, Objects, ObjectsError, Source};
+use crate::store::checkpoints::PAUSE;
+use crate::store::local::FILE_WRITES_MB;
+use crate::store::{JobUpdate, Lease, LeaseState, NewContent, NewFile, Store, StoreError};
+
+/// Longest time between the end of the writing of a file and the update that names it: the other files of the update are sent meanwhile. Later it
+/// is removed, and the update is refused until the file has been sent again. Arbitrary.
+const NAMED_WITHIN: Duration = Duration::from_hours(24);
+/// Longest time for an object: of an empty one, for each further MB, and of any. The worker waits for it.
+const LONGEST: [Duration; 3] = [
+    Duration::from_secs(3),
+    Duration::from_millis(500),
+    Duration::from_secs(20),
+];
+/// Longest wait for memory.
+const LONGEST_WAIT: Duration = Duration::from_secs(10);
+/// Most memory of a file that is written, MB: it is written in parts.
+const MOST_MB: u64 = 16;
+/// Largest file that the database takes, bytes; a larger one waits for the store of objects. Fields of the largest models so far have 15 MB.
+const LARGEST: u64 = 64 << 20;
+/// What keys begin with.
+const PREFIX: &str = "files/";
+
+/// Whether a key is that of a file of a job.
+pub(in crate::store) fn is_of_job(key: &str, job: Uuid) -> bool {
+    let name = key.strip_prefix(PREFIX);
+    let name = name.and_then(|name| name.strip_prefix(&job.to_string()));
+    name.is_some_and(|name| name.starts_with('/'))
+}
+
+impl Store {
+    /// Whether files of attempts are objects.
+    pub fn has_files_as_objects(&self) -> bool {
+        self.objects_of_files().is_some()
+    }
+
+    /// A file for what arrives, which is removed when it is dropped.
+    ///
+    /// # Errors
+    /// If it cannot be created.
+    pub fn received_file(&self) -> std::io::Result<TempPath> {
+        self.local().folder.received()
+    }
+
+    /// Writes a file of an attempt to an object; its key.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails, or if the file is large and the store of objects fails.
+    pub async fn put_file(&self, lease: Lease, file: &ObjectFile) -> Result<String, StoreError> {
+        let objects = self.objects_of_files().ok_or(StoreError::NoObjects)?;
+        self.disk().check()?;
+        let Lease { job, number } = lease;
+        let key = format!("{PREFIX}{job}/{number}/{}", Uuid::now_v7());
+        self.note_object(&key).await?;
+        let content = match self.put_in_time(objects, &key, file).await {
+            Ok(()) => None,
+            Err(error @ StoreError::Objects(ObjectsError::Damaged { .. })) => return Err(error),
+            Err(error) if file.bytes > LARGEST => return Err(error),
+            Err(_) => Some(file.read().await?),
+        };
+        let kept = self.keep_object(&key, content.as_deref(), NAMED_WITHIN);
+        if kept.await? {
+            return Ok(key);
+        }
+        // It was noted too long ago, and may have been written after its removal.
+        objects.remove(&key).await?;
+        Err(StoreError::LostFile(key))
+    }
+
+    /// Writes a file to an object, unless that takes too long or has failed a short time ago.
+    async fn put_in_time(
+        &self,
+        objects: &Objects,
+        key: &str,
+        file: &ObjectFile,
+    ) -> Result<(), StoreError> {
+        let unanswered = |cause: String| ObjectsError::Store {
+            location: objects.location().to_owned(),
+            cause: cause.into(),
+        };
+        let failure = &self.local().objects_failed_at;
+        if failure.lock().await.is_some_and(|at| at.elapsed() < PAUSE) {
+            let cause = format!("it has failed, and is tried again after {PAUSE:?}");
+            return Err(unanswered(cause).into());
+        }
+        let megabytes = u32::try_from(file.bytes >> 20).unwrap_or(u32::MAX);
+        let memory = u32::try_from(MOST_MB).unwrap_or(1).min(1 + megabytes);
+        let memory = self.local().file_writes.acquire_many(memory);
+        let Ok(_memory) = timeout(LONGEST_WAIT, memory).await else {
+            let cause = format!("files of {FILE_WRITES_MB} MB are being written");
+            return Err(unanswered(cause).into());
+        };
+        let put = async {
+            self.check_mark(objects).await?;
+            let put = objects.put(key, &[], std::slice::from_ref(file)).await;
+            put.map_err(StoreError::from)
+        };
+        let [least, each, most] = LONGEST;
+        let longest = most.min(least + each.saturating_mul(megabytes));
+        let put = timeout(longest, put).await.unwrap_or_else(|_| {
+            let cause = format!("no answer within {longest:?}");
+            Err(unanswered(cause).into())
+        });
+        if let Err(error) = &put
+            && !matches!(error, StoreError::Objects(ObjectsError::Damaged { .. }))
+        {
+            tracing::warn!(
+                %error,
+                "the store of objects took no file; the database has them for {PAUSE:?}"
+            );
+            *failure.lock().await = Some(Instant::now());
+        }
+        put
+    }
+
+    /// An update whose files are in objects, if they belong there.
+    pub(in crate::store) async fn with_file_objects<'a>(
+        &self,
+        lease: Lease,
+        update: &'a JobUpdate,
+    ) -> Result<Cow<'a, JobUpdate>, StoreError> {
+        let is_in_folder = |file: &NewFile| file.content == NewContent::Folder;
+        if self.objects_of_files().is_none()
+            || !update.files.iter().any(is_in_folder)
+            // The files of a repeated end are no longer there, and it has no effect.
+            || self.lease_state(lease).await? == LeaseState::Lost
+        {
+            return Ok(Cow::Borrowed(update));
+        }
+        let mut update = update.clone();
+        let folder = self.attempt_folder(lease);
+        for NewFile { file, content } in &mut update.files {
+            if *content != NewContent::Folder {
+                continue;
+            }
+            let source = ObjectFile {
+                source: Source::File(folder.join(&file.name)),
+                bytes: file.bytes,
+                sha256: file.sha256.clone(),
+            };
+            *content = NewContent::Object(self.put_file(lease, &source).await?);
+        }
+        Ok(Cow::Owned(update))
+    }
+
+    /// The store of objects if it has the files of attempts: services on several machines share no folder. What replaces the files of a copied
+    /// database would never be removed.
+    fn objects_of_files(&self) -> Option<&Objects> {
+        let is_used = self.is_shared() && self.local().removes_objects;
+        self.local().objects.as_ref().filter(|_| is_used)
+    }
+}
