@@ -1,8 +1,8 @@
 //! Objects: results of ended jobs, checkpoints and files of attempts in a store of objects, a folder (`file:///PATH`) or a bucket (`s3://BUCKET/PREFIX`), by the crate
 //! `object_store`. An object is written once, whole or not at all, and never changed. Knows neither jobs nor SQL.
 
+mod files;
 mod part;
-mod source;
 
 use std::fmt;
 use std::ops::Range;
@@ -10,27 +10,18 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use futures_util::StreamExt;
 use object_store::aws::AmazonS3Builder;
-use object_store::buffered::BufWriter;
 use object_store::local::LocalFileSystem;
 use object_store::path::Path;
 use object_store::prefix::PrefixStore;
 use object_store::{ObjectStore, ObjectStoreExt, RetryConfig};
-use sha2::{Digest, Sha256};
-use tokio::io::AsyncWriteExt;
 
-use crate::export::files::hexadecimal;
-
+pub use files::{ObjectFile, Source};
 pub use part::ObjectPart;
-pub use source::{ObjectFile, Source};
 
 /// Retries of a request, and the longest time for them: the caller tries again later, too.
 const RETRIES: usize = 3;
 const RETRY_TIMEOUT: Duration = Duration::from_secs(10);
-/// Length of the parts of a large object, and how many of them are sent at the same time: their memory is taken for each writer.
-const PART_BYTES: usize = 8 << 20;
-const PARTS: usize = 2;
 /// Key of the object that marks a store: one without it is another one, or a folder that is not mounted.
 const MARK: &str = "fretwear-objects";
 
@@ -170,53 +161,6 @@ impl Objects {
         let put = self.store.put(&Path::from(key), bytes.into()).await;
         put.map_err(|cause| self.failed(cause.into()))?;
         self.check_folder()
-    }
-
-    /// Writes an object: bytes, and the contents of files behind them, which are compared with what they should be. After an error there may be
-    /// an object or not.
-    ///
-    /// # Errors
-    /// [`ObjectsError`].
-    pub async fn put(
-        &self,
-        key: &str,
-        head: &[u8],
-        files: &[ObjectFile],
-    ) -> Result<(), ObjectsError> {
-        self.check_folder()?;
-        let path = Path::from(key);
-        let mut writer = BufWriter::with_capacity(Arc::clone(&self.store), path, PART_BYTES)
-            .with_max_concurrency(PARTS);
-        let failed = |cause: std::io::Error| self.failed(cause.into());
-        let written = async {
-            writer.write_all(head).await.map_err(failed)?;
-            for file in files {
-                self.append(&mut writer, file).await?;
-            }
-            Ok(())
-        };
-        let written = written.await;
-        if written.is_err() {
-            // Parts that cannot be removed are an incomplete upload, which the rules of a bucket remove.
-            let _ = writer.abort().await;
-            return written;
-        }
-        writer.shutdown().await.map_err(failed)?;
-        self.check_folder()
-    }
-
-    /// Writes a file, and compares length and checksum.
-    async fn append(&self, writer: &mut BufWriter, file: &ObjectFile) -> Result<(), ObjectsError> {
-        let (mut bytes, mut sha256) = (0, Sha256::new());
-        let mut chunks = file.source.open().await?;
-        while let Some(chunk) = chunks.next().await {
-            let chunk = chunk?;
-            sha256.update(&chunk);
-            bytes += u64::try_from(chunk.len()).unwrap_or(u64::MAX);
-            let written = writer.write_all(&chunk).await;
-            written.map_err(|cause| self.failed(cause.into()))?;
-        }
-        file.check(bytes, &hexadecimal(&sha256.finalize()))
     }
 
     /// Reads a range of an object.

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use api::results::ResultFile;
 use nix::sys::statvfs::statvfs;
 use sha2::{Digest, Sha256};
+use uuid::Uuid;
 
 use crate::export::documents;
 use crate::export::documents::{DocumentError, Results};
@@ -71,7 +72,8 @@ pub fn write(
 /// [`FilesError`] naming the file.
 pub fn write_atomically(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), FilesError> {
     let path = folder.join(name);
-    let unfinished = folder.join(format!("{name}.unfinished"));
+    // Two ends of one job may write it at the same time.
+    let unfinished = folder.join(format!("{name}.{}.unfinished", Uuid::now_v7()));
     let written = || -> std::io::Result<()> {
         create_folder(folder)?;
         let mut file = File::create(&unfinished)?;

@@ -2,12 +2,13 @@
 //!
 //! A file is written to an object before the update that names it, by the service that gets it from a remote worker, or by that of the worker. Its key is
 //! noted first, and the note is removed in the transaction of the update. While the store of objects takes none, the note has the content, and the
-//! update takes it from there, so that no job waits for the store. A succeeded job's files are moved into its one object with its other results.
+//! update takes it from there, so that no job waits for the store but one with a larger file. A succeeded job's files are moved into its one object with its other results.
 
 use std::borrow::Cow;
 use std::time::Duration;
 
 use tempfile::TempPath;
+use tokio::sync::SemaphorePermit;
 use tokio::time::{Instant, timeout};
 use uuid::Uuid;
 
@@ -28,9 +29,13 @@ const LONGEST: [Duration; 3] = [
 /// Longest wait for memory.
 const LONGEST_WAIT: Duration = Duration::from_secs(10);
 /// Most memory of a file that is written, MB: it is written in parts.
-const MOST_MB: u64 = 16;
+const MOST_MB: u32 = 16;
 /// Largest file that the database takes, bytes; a larger one waits for the store of objects. Fields of the largest models so far have 15 MB.
 const LARGEST: u64 = 64 << 20;
+/// Memory of such a file, MB.
+const LARGEST_MB: u32 = 65;
+/// Longest time for an object of a larger one.
+const LONGEST_OF_LARGE: Duration = Duration::from_mins(10);
 /// What keys begin with.
 const PREFIX: &str = "files/";
 
@@ -39,6 +44,20 @@ pub(in crate::store) fn is_of_job(key: &str, job: Uuid) -> bool {
     let name = key.strip_prefix(PREFIX);
     let name = name.and_then(|name| name.strip_prefix(&job.to_string()));
     name.is_some_and(|name| name.starts_with('/'))
+}
+
+/// Longest time for an object of so many bytes.
+fn longest(bytes: u64) -> Duration {
+    if bytes > LARGEST {
+        return LONGEST_OF_LARGE;
+    }
+    let [least, each, most] = LONGEST;
+    most.min(least + each.saturating_mul(megabytes(bytes)))
+}
+
+/// Whole MB of some bytes.
+fn megabytes(bytes: u64) -> u32 {
+    u32::try_from(bytes >> 20).unwrap_or(u32::MAX)
 }
 
 impl Store {
@@ -65,11 +84,14 @@ impl Store {
         let Lease { job, number } = lease;
         let key = format!("{PREFIX}{job}/{number}/{}", Uuid::now_v7());
         self.note_object(&key).await?;
-        let content = match self.put_in_time(objects, &key, file).await {
-            Ok(()) => None,
+        let (content, _memory) = match self.put_in_time(objects, &key, file).await {
+            Ok(()) => (None, None),
             Err(error @ StoreError::Objects(ObjectsError::Damaged { .. })) => return Err(error),
             Err(error) if file.bytes > LARGEST => return Err(error),
-            Err(_) => Some(file.read().await?),
+            Err(_) => {
+                let memory = self.memory_of(file, LARGEST_MB).await;
+                (Some(file.read().await?), memory)
+            }
         };
         let kept = self.keep_object(&key, content.as_deref(), NAMED_WITHIN);
         if kept.await? {
@@ -96,10 +118,7 @@ impl Store {
             let cause = format!("it has failed, and is tried again after {PAUSE:?}");
             return Err(unanswered(cause).into());
         }
-        let megabytes = u32::try_from(file.bytes >> 20).unwrap_or(u32::MAX);
-        let memory = u32::try_from(MOST_MB).unwrap_or(1).min(1 + megabytes);
-        let memory = self.local().file_writes.acquire_many(memory);
-        let Ok(_memory) = timeout(LONGEST_WAIT, memory).await else {
+        let Ok(_memory) = timeout(LONGEST_WAIT, self.memory_of(file, MOST_MB)).await else {
             let cause = format!("files of {FILE_WRITES_MB} MB are being written");
             return Err(unanswered(cause).into());
         };
@@ -108,14 +127,14 @@ impl Store {
             let put = objects.put(key, &[], std::slice::from_ref(file)).await;
             put.map_err(StoreError::from)
         };
-        let [least, each, most] = LONGEST;
-        let longest = most.min(least + each.saturating_mul(megabytes));
+        let longest = longest(file.bytes);
         let put = timeout(longest, put).await.unwrap_or_else(|_| {
             let cause = format!("no answer within {longest:?}");
             Err(unanswered(cause).into())
         });
-        if let Err(error) = &put
-            && !matches!(error, StoreError::Objects(ObjectsError::Damaged { .. }))
+        if let Err(StoreError::Objects(
+            error @ (ObjectsError::Store { .. } | ObjectsError::Unmarked(_)),
+        )) = &put
         {
             tracing::warn!(
                 %error,
@@ -124,6 +143,13 @@ impl Store {
             *failure.lock().await = Some(Instant::now());
         }
         put
+    }
+
+    /// Waits for memory for a file, up to a limit.
+    async fn memory_of(&self, file: &ObjectFile, most_mb: u32) -> Option<SemaphorePermit<'_>> {
+        let megabytes = most_mb.min(megabytes(file.bytes).saturating_add(1));
+        let memory = self.local().file_writes.acquire_many(megabytes);
+        memory.await.ok()
     }
 
     /// An update whose files are in objects, if they belong there.
@@ -142,7 +168,7 @@ impl Store {
         }
         let mut update = update.clone();
         let folder = self.attempt_folder(lease);
-        for NewFile { file, content } in &mut update.files {
+        for NewFile { file, content } in update.largest_files_first() {
             if *content != NewContent::Folder {
                 continue;
             }
@@ -151,7 +177,16 @@ impl Store {
                 bytes: file.bytes,
                 sha256: file.sha256.clone(),
             };
-            *content = NewContent::Object(self.put_file(lease, &source).await?);
+            *content = match self.put_file(lease, &source).await {
+                Ok(key) => NewContent::Object(key),
+                // An end that was repeated meanwhile has removed them.
+                Err(StoreError::Objects(ObjectsError::Damaged { .. }))
+                    if self.lease_state(lease).await? == LeaseState::Lost =>
+                {
+                    return Ok(Cow::Owned(update));
+                }
+                Err(error) => return Err(error),
+            };
         }
         Ok(Cow::Owned(update))
     }

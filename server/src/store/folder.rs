@@ -75,10 +75,15 @@ impl Folder {
     pub(in crate::store) fn remove_received(&self) -> std::io::Result<usize> {
         let mut removed = 0;
         for entry in entries(&self.root)? {
-            let is_received = entry.file_name().to_string_lossy().starts_with(RECEIVED);
-            let age = entry.metadata()?.modified()?.elapsed();
-            if is_received && age.is_ok_and(|age| age > LONGEST_RECEIPT) {
-                fs_err::remove_file(entry.path())?;
+            if !entry.file_name().to_string_lossy().starts_with(RECEIVED) {
+                continue;
+            }
+            // Another process may remove it, too.
+            let Ok(written) = entry.metadata().and_then(|file| file.modified()) else {
+                continue;
+            };
+            let is_old = written.elapsed().is_ok_and(|age| age > LONGEST_RECEIPT);
+            if is_old && fs_err::remove_file(entry.path()).is_ok() {
                 removed += 1;
             }
         }

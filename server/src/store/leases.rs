@@ -1,5 +1,6 @@
 //! Leases: jobs held by workers, their writes and their ends.
 
+use std::cmp::Reverse;
 use std::time::Duration;
 
 use api::job::{Outcome, Progress};
@@ -152,6 +153,13 @@ const SMALL_BLOCK: usize = 64 * 1024;
 const FEW_ROWS: usize = 64;
 
 impl JobUpdate {
+    /// Its files, the largest first: one that the store of objects does not take keeps the others from being sent again and again.
+    pub(crate) fn largest_files_first(&mut self) -> Vec<&mut NewFile> {
+        let mut files: Vec<_> = self.files.iter_mut().collect();
+        files.sort_by_key(|file| Reverse(file.file.bytes));
+        files
+    }
+
     /// Whether it is written together with others: it has a few rows and events, and no more than a small block of results.
     pub(crate) fn is_small(&self) -> bool {
         let block = self.block.as_ref();

@@ -6,6 +6,7 @@
 
 use std::collections::HashMap;
 use std::fmt::Display;
+use std::path::Path;
 
 use futures_util::{StreamExt, stream};
 use tokio::sync::Semaphore;
@@ -21,7 +22,7 @@ const JOBS: i64 = 512;
 const READ: usize = 32;
 /// Objects that are written at the same time. Arbitrary: an object takes some 10 to 100 ms.
 const WRITES: usize = 32;
-/// Those of them that have files, whose parts are in memory.
+/// Those of them that have files, whose parts are in memory; one alone where files are in rows.
 const LARGE_WRITES: usize = 4;
 
 impl Store {
@@ -185,16 +186,22 @@ impl Store {
             Err(error) => return Err(error),
         };
         let Prepared { moved, head, files } = prepared;
-        let _large = if files.is_empty() {
-            None
-        } else {
-            large.acquire().await.ok()
+        let writes = match &files[..] {
+            [] => 0,
+            files if files.iter().any(|file| file.source.is_none()) => LARGE_WRITES,
+            _ => 1,
         };
+        let writes = u32::try_from(writes).unwrap_or(1);
+        let _large = large.acquire_many(writes).await.ok();
         let files = self.object_files(id, files).await?;
         match objects.put(&moved.key, &head, &files).await {
             Ok(()) => Ok(Some(moved)),
-            Err(error @ ObjectsError::Damaged { .. }) if self.has_files_of(id, &files) => {
+            Err(error @ ObjectsError::Damaged { .. }) if self.has_folders_of(&files) => {
                 self.kept(id, &error).await
+            }
+            Err(error @ ObjectsError::Damaged { .. }) if self.is_shared() => {
+                tracing::warn!(job = %id, %error, "its files may be in the folder of another service; they stay there");
+                Ok(None)
             }
             Err(error) => Err(error.into()),
         }
@@ -225,16 +232,13 @@ impl Store {
     }
 
     /// Whether a file that is missing is lost: the folder may not be mounted, or may be that of another service.
-    fn has_files_of(&self, id: Uuid, files: &[ObjectFile]) -> bool {
-        let is_local = |file: &ObjectFile| matches!(file.source, Source::File(_));
-        let folder = &self.local().folder;
-        if !files.iter().any(is_local) {
-            true
-        } else if self.is_shared() {
-            folder.has(id)
-        } else {
-            folder.exists()
-        }
+    fn has_folders_of(&self, files: &[ObjectFile]) -> bool {
+        let has_folder = |file: &ObjectFile| match &file.source {
+            Source::File(path) if self.is_shared() => path.parent().is_some_and(Path::is_dir),
+            Source::File(_) => self.local().folder.exists(),
+            Source::Object(_) | Source::Bytes(_) => true,
+        };
+        files.iter().all(has_folder)
     }
 
     /// Leaves the results of a job where they are.

@@ -55,14 +55,15 @@ impl<E: Employer> Attempt<'_, E> {
         for update in updates {
             let record = || self.employer.record(lease, update, self.config.lease);
             match retry_unless(record, |error| {
-                end.transition == Transition::Cancel && error.is_disk_full()
+                let is_lost = error.is_disk_full() || error.is_without_objects();
+                end.transition == Transition::Cancel && is_lost
             })
             .await
             {
                 Ok(LeaseState::Held { .. }) => {}
                 Ok(LeaseState::Lost) => return Ok(()),
                 // What was to be recorded of a cancelled job is lost, the job ends.
-                Err(error) if error.is_disk_full() => break,
+                Err(error) if error.is_disk_full() || error.is_without_objects() => break,
                 Err(error) => return Err(error),
             }
         }

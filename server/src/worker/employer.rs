@@ -67,6 +67,14 @@ impl EmployerError {
         }
     }
 
+    /// Whether the store of objects takes no file that only it can have.
+    pub(super) fn is_without_objects(&self) -> bool {
+        match self {
+            Self::Store(error) => matches!(error, StoreError::Objects(_)),
+            Self::Remote(error) => error.is_of_type("/problems/results-unreachable"),
+        }
+    }
+
     /// Whether the disk of the database is full: nothing more can be recorded, but jobs can be cancelled.
     pub(super) fn is_disk_full(&self) -> bool {
         match self {

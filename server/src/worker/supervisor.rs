@@ -186,7 +186,7 @@ impl<E: Employer> Supervision<'_, E> {
                 // The solve continues and the update is written again; the fence discards writes that come too late.
                 Err(error) if error.is_temporary() => {
                     tracing::warn!(%error, "the employer failed; retrying");
-                    if self.is_cancelled_on_full_disk(&error).await {
+                    if self.is_cancelled_meanwhile(&error).await {
                         return Ok(Stop::Cancelled);
                     }
                     store_failed = true;
@@ -197,14 +197,14 @@ impl<E: Employer> Supervision<'_, E> {
         }
     }
 
-    /// Whether the user cancelled the job while nothing could be stored because the disk is full. The state of the lease
+    /// Whether the user cancelled the job while nothing could be stored because the disk is full, or no large file. The state of the lease
     /// can be read all the same; after another error the next write returns it.
-    async fn is_cancelled_on_full_disk(&self, error: &EmployerError) -> bool {
+    async fn is_cancelled_meanwhile(&self, error: &EmployerError) -> bool {
         let cancelled = LeaseState::Held {
             cancel_requested: true,
         };
         let Attempt { employer, .. } = self.attempt;
-        error.is_disk_full()
+        (error.is_disk_full() || error.is_without_objects())
             && employer.lease_state(self.attempt.lease()).await.ok() == Some(cancelled)
     }
 

@@ -1,6 +1,5 @@
 //! Manifests: the files of a job by name, and their content.
 
-use std::borrow::Cow;
 use std::collections::HashSet;
 
 use api::results::ResultFile;
@@ -132,16 +131,25 @@ impl PostgresStore {
                 return Ok(());
             }
         };
-        // Files of running jobs may be named later.
-        let needed: Vec<Uuid> = sqlx::query_scalar(
-            "SELECT id FROM jobs WHERE id = ANY($1) AND (status = 'running' \
-             OR EXISTS (SELECT 1 FROM result_files WHERE job_id = id AND place IS NOT NULL))",
+        let kept: Vec<(Uuid, i64, bool)> = sqlx::query_as(
+            "SELECT id, lease, status = 'running' OR EXISTS (SELECT 1 FROM result_files WHERE job_id = id AND place IS NOT NULL) \
+             FROM jobs LEFT JOIN result_blocks ON job_id = id WHERE id = ANY($1) AND object IS NULL",
         )
         .bind(&jobs)
         .fetch_all(&self.readers)
         .await?;
-        let needed: HashSet<_> = needed.into_iter().collect();
-        for job in jobs.into_iter().filter(|job| !needed.contains(job)) {
+        for (job, lease, is_needed) in &kept {
+            // Attempts that begin meanwhile have higher numbers.
+            let attempt = Some((*job, *lease));
+            let remove = move |folder: Folder| {
+                folder.remove_unnamed(attempt, &HashSet::new(), &HashSet::new())
+            };
+            if !is_needed {
+                self.local.remove_unnamed(remove).await;
+            }
+        }
+        let kept: HashSet<_> = kept.into_iter().map(|(job, ..)| job).collect();
+        for job in jobs.into_iter().filter(|job| !kept.contains(job)) {
             self.local.remove_files(job).await;
         }
         let remove = |folder: Folder| folder.remove_received();
@@ -151,15 +159,15 @@ impl PostgresStore {
 }
 
 /// What was sent under a key.
+#[derive(Debug, Clone, Copy)]
 enum Sent {
     /// It is in the object.
     Object,
-    /// It could not be written there.
-    Content(Vec<u8>),
+    /// It could not be written there: the note has it.
+    Content,
 }
 
-/// Finds what was sent of a job's file, which gets a name: removes its note, or the content from it. `None` if nothing is known of it, or if it is
-/// being removed.
+/// Finds out what was sent of a job's file, and locks its note. `None` if nothing is known of it, or if it is being removed.
 async fn sent(
     connection: &mut PgConnection,
     job: Uuid,
@@ -168,23 +176,32 @@ async fn sent(
     if !is_of_job(key, job) {
         return Ok(None);
     }
-    let noted: Option<Option<Vec<u8>>> = sqlx::query_scalar(
-        "SELECT content FROM unnamed_objects WHERE key = $1 AND NOT is_removing FOR UPDATE",
+    let has_content: Option<bool> = sqlx::query_scalar(
+        "SELECT content IS NOT NULL FROM unnamed_objects WHERE key = $1 AND NOT is_removing FOR UPDATE",
     )
     .bind(key)
-    .fetch_optional(&mut *connection)
+    .fetch_optional(connection)
     .await?;
-    let (sent, statement) = match noted {
-        None => return Ok(None),
-        Some(None) => (Sent::Object, "DELETE FROM unnamed_objects WHERE key = $1"),
-        // There may be an object or a part of one, too.
-        Some(Some(content)) => (
-            Sent::Content(content),
-            "UPDATE unnamed_objects SET content = NULL, noted_at = fretwear_now() WHERE key = $1",
-        ),
+    let sent = |has_content| {
+        if has_content {
+            Sent::Content
+        } else {
+            Sent::Object
+        }
+    };
+    Ok(has_content.map(sent))
+}
+
+/// Removes the note of what has got a name. Where it had the content, there may be an object or a part of one, too, which is removed later.
+async fn forget(connection: &mut PgConnection, key: &str, sent: Sent) -> Result<(), StoreError> {
+    let statement = match sent {
+        Sent::Object => "DELETE FROM unnamed_objects WHERE key = $1",
+        Sent::Content => {
+            "UPDATE unnamed_objects SET content = NULL, noted_at = fretwear_now() WHERE key = $1"
+        }
     };
     sqlx::query(statement).bind(key).execute(connection).await?;
-    Ok(Some(sent))
+    Ok(())
 }
 
 /// Adds files to the manifest, in a transaction that has checked the lease.
@@ -195,18 +212,24 @@ pub(super) async fn insert_files(
 ) -> Result<(), StoreError> {
     for NewFile { file, content } in files {
         let (mut inline, mut place, mut object) = (None, None, None);
+        let mut noted = None;
         match content {
-            NewContent::Inline(bytes) => inline = Some(Cow::Borrowed(&bytes[..])),
+            NewContent::Inline(bytes) => inline = Some(&bytes[..]),
             NewContent::Folder => place = Some(Folder::place(lease.job, lease.number, &file.name)),
-            NewContent::Object(key) => match sent(connection, lease.job, key).await? {
-                Some(Sent::Object) => object = Some(key),
-                Some(Sent::Content(bytes)) => inline = Some(Cow::Owned(bytes)),
-                None => return Err(StoreError::LostFile(file.name.clone())),
-            },
+            NewContent::Object(key) => {
+                let sent = sent(connection, lease.job, key).await?;
+                let sent = sent.ok_or_else(|| StoreError::LostFile(file.name.clone()))?;
+                match sent {
+                    Sent::Object => object = Some(key),
+                    Sent::Content => {}
+                }
+                noted = Some((key, sent));
+            }
         }
         sqlx::query(
             "INSERT INTO result_files (job_id, name, cycle, media_type, bytes, sha256, content, place, object) \
-             VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9) ON CONFLICT (job_id, name) DO UPDATE SET cycle = excluded.cycle, \
+             VALUES ($1, $2, $3, $4, $5, $6, COALESCE($7, (SELECT content FROM unnamed_objects WHERE key = $10)), $8, $9) \
+             ON CONFLICT (job_id, name) DO UPDATE SET cycle = excluded.cycle, \
              media_type = excluded.media_type, bytes = excluded.bytes, sha256 = excluded.sha256, content = excluded.content, \
              place = excluded.place, object = excluded.object, damaged = NULL",
         )
@@ -216,11 +239,15 @@ pub(super) async fn insert_files(
         .bind(&file.media_type)
         .bind(integer(file.bytes))
         .bind(&file.sha256)
-        .bind(inline.as_deref())
+        .bind(inline)
         .bind(place)
         .bind(object)
+        .bind(noted.map(|(key, _)| key))
         .execute(&mut *connection)
         .await?;
+        if let Some((key, sent)) = noted {
+            forget(connection, key, sent).await?;
+        }
     }
     Ok(())
 }

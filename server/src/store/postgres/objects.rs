@@ -164,10 +164,12 @@ impl PostgresStore {
     }
 
     pub(in crate::store) async fn keep_results(&self, id: Uuid) -> Result<(), StoreError> {
-        sqlx::query("UPDATE result_blocks SET is_movable = false WHERE job_id = $1")
-            .bind(id)
-            .execute(&self.pool)
-            .await?;
+        sqlx::query(
+            "UPDATE result_blocks SET is_movable = false WHERE job_id = $1 AND object IS NULL",
+        )
+        .bind(id)
+        .execute(&self.pool)
+        .await?;
         Ok(())
     }
 }

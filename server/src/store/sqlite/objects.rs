@@ -135,7 +135,7 @@ impl SqliteStore {
     }
 
     pub(in crate::store) async fn keep_results(&self, id: Uuid) -> Result<(), StoreError> {
-        sqlx::query("UPDATE result_blocks SET is_movable = 0 WHERE job_id = ?")
+        sqlx::query("UPDATE result_blocks SET is_movable = 0 WHERE job_id = ? AND object IS NULL")
             .bind(id.to_string())
             .execute(&self.writer)
             .await?;

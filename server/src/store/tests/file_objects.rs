@@ -30,6 +30,7 @@ of_several_services! {
     a_file_is_in_the_database_while_the_store_of_objects_fails,
     a_damaged_file_is_none_of_the_store_of_objects,
     a_file_is_removed_with_its_job_or_by_the_next_one_of_its_name,
+    files_of_attempts_that_do_not_run_are_removed_at_the_start,
 }
 
 const LENGTH: Duration = Duration::from_hours(1);
@@ -243,4 +244,34 @@ async fn a_file_is_removed_with_its_job_or_by_the_next_one_of_its_name(database:
     database.later().await;
     database.moved().await;
     assert_eq!(database.files().len(), 0);
+}
+
+/// A killed service has left them.
+async fn files_of_attempts_that_do_not_run_are_removed_at_the_start(database: WithObjects) {
+    let (store, running) = (&database.store, database.running().await);
+    let ended = database.running().await;
+    for claim in [&running, &ended] {
+        let update = database.with_file(claim, 1, b"fields");
+        store.record(claim, &update, LENGTH).await.expect("written");
+    }
+    let last = JobUpdate {
+        number: 2,
+        ..JobUpdate::default()
+    };
+    let status = store.end(&ended, &last, &end(Transition::Fail)).await;
+    assert_eq!(status.expect("the store"), Some(Status::Failed));
+    let next = store.attempt_folder(Lease {
+        number: ended.lease + 1,
+        ..Lease::from(&ended)
+    });
+    std::fs::create_dir_all(&next).expect("a folder");
+    std::fs::write(next.join("a.vtu"), "of the next attempt").expect("written");
+    store.remove_unnamed_files(None).await.expect("the store");
+    assert!(store.attempt_folder(&running).join("a.vtu").exists());
+    assert!(!store.attempt_folder(&ended).exists());
+    assert!(next.join("a.vtu").exists());
+    assert_eq!(
+        database.read(ended.id, "a.vtu").await.expect("read"),
+        b"fields"
+    );
 }

@@ -116,7 +116,7 @@ impl Remote {
         update: &JobUpdate,
     ) -> Result<JobUpdate, EmployerError> {
         let (Lease { job, number }, mut update) = (lease, update.clone());
-        for NewFile { file, content } in &mut update.files {
+        for NewFile { file, content } in update.largest_files_first() {
             let path = format!("/v1/worker/files/{job}/{number}/{}", file.name);
             let sent = self.folder(lease).join(&file.name);
             let taken: Taken = self.client.put_file(&path, &sent, file).await?;

@@ -1,16 +1,24 @@
-//! Files that belong into an object.
+//! Files that belong into an object, and how they are written.
 
 use std::io;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use bytes::Bytes;
 use futures_util::stream::BoxStream;
 use futures_util::{StreamExt, TryStreamExt, stream};
+use object_store::buffered::BufWriter;
+use object_store::path::Path;
+use sha2::{Digest, Sha256};
+use tokio::io::AsyncWriteExt;
 use tokio_util::io::ReaderStream;
 
-use super::{ObjectPart, ObjectsError};
-use crate::export::files::sha256;
+use super::{ObjectPart, Objects, ObjectsError};
+use crate::export::files::{hexadecimal, sha256};
 
+/// Length of the parts of a large object, and how many of them are sent at the same time: their memory is taken for each writer.
+const PART_BYTES: usize = 8 << 20;
+const PARTS: usize = 2;
 /// Size of the chunks in which a file is read, bytes.
 const CHUNK_BYTES: usize = 64 << 10;
 
@@ -36,6 +44,55 @@ pub enum Source {
     Bytes(Bytes),
 }
 
+impl Objects {
+    /// Writes an object: bytes, and the contents of files behind them, which are compared with what they should be. After an error there may be
+    /// an object or not.
+    ///
+    /// # Errors
+    /// [`ObjectsError`].
+    pub async fn put(
+        &self,
+        key: &str,
+        head: &[u8],
+        files: &[ObjectFile],
+    ) -> Result<(), ObjectsError> {
+        self.check_folder()?;
+        let path = Path::from(key);
+        let mut writer = BufWriter::with_capacity(Arc::clone(&self.store), path, PART_BYTES)
+            .with_max_concurrency(PARTS);
+        let failed = |cause: std::io::Error| self.failed(cause.into());
+        let written = async {
+            writer.write_all(head).await.map_err(failed)?;
+            for file in files {
+                self.append(&mut writer, file).await?;
+            }
+            Ok(())
+        };
+        let written = written.await;
+        if written.is_err() {
+            // Parts that cannot be removed are an incomplete upload, which the rules of a bucket remove.
+            let _ = writer.abort().await;
+            return written;
+        }
+        writer.shutdown().await.map_err(failed)?;
+        self.check_folder()
+    }
+
+    /// Writes a file, and compares length and checksum.
+    async fn append(&self, writer: &mut BufWriter, file: &ObjectFile) -> Result<(), ObjectsError> {
+        let (mut bytes, mut sha256) = (0, Sha256::new());
+        let mut chunks = file.source.open().await?;
+        while let Some(chunk) = chunks.next().await {
+            let chunk = chunk?;
+            sha256.update(&chunk);
+            bytes += u64::try_from(chunk.len()).unwrap_or(u64::MAX);
+            let written = writer.write_all(&chunk).await;
+            written.map_err(|cause| self.failed(cause.into()))?;
+        }
+        file.check(bytes, &hexadecimal(&sha256.finalize()))
+    }
+}
+
 impl ObjectFile {
     /// Reads all of it.
     ///
@@ -52,7 +109,7 @@ impl ObjectFile {
     }
 
     /// Compares length and checksum of what was read.
-    pub(super) fn check(&self, bytes: u64, sha256: &str) -> Result<(), ObjectsError> {
+    fn check(&self, bytes: u64, sha256: &str) -> Result<(), ObjectsError> {
         if (bytes, sha256) == (self.bytes, &self.sha256) {
             return Ok(());
         }
@@ -65,9 +122,7 @@ impl ObjectFile {
 
 impl Source {
     /// Reads it in chunks.
-    pub(super) async fn open(
-        &self,
-    ) -> Result<BoxStream<'static, Result<Bytes, ObjectsError>>, ObjectsError> {
+    async fn open(&self) -> Result<BoxStream<'static, Result<Bytes, ObjectsError>>, ObjectsError> {
         match self {
             Self::File(path) => {
                 let file = tokio::fs::File::open(path).await;
