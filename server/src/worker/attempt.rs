@@ -51,19 +51,18 @@ impl<E: Employer> Attempt<'_, E> {
         (end, computed): (&End, Option<Computed>),
     ) -> Result<(), EmployerError> {
         let lease = self.lease();
+        let is_final = |error: &EmployerError| {
+            let is_full = error.is_disk_full() || error.is_without_objects();
+            end.transition == Transition::Cancel && is_full
+        };
         // The events of the updates precede the end, so they are written first, under the same lease.
         for update in updates {
             let record = || self.employer.record(lease, update, self.config.lease);
-            match retry_unless(record, |error| {
-                let is_lost = error.is_disk_full() || error.is_without_objects();
-                end.transition == Transition::Cancel && is_lost
-            })
-            .await
-            {
+            match retry_unless(record, is_final).await {
                 Ok(LeaseState::Held { .. }) => {}
                 Ok(LeaseState::Lost) => return Ok(()),
                 // What was to be recorded of a cancelled job is lost, the job ends.
-                Err(error) if error.is_disk_full() || error.is_without_objects() => break,
+                Err(error) if is_final(&error) => break,
                 Err(error) => return Err(error),
             }
         }

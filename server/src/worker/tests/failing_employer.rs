@@ -6,15 +6,22 @@ use api::service::Demand;
 
 use super::*;
 use crate::metrics::Busy;
+use crate::objects::ObjectsError;
+use crate::queue::Transition;
 use crate::solve::checkpoint::EncodedCheckpoint;
+use crate::store::tests::request;
 use crate::store::{Claim, ClaimRequest, End, Lease, LeaseState, StoreError};
 use crate::worker::Employer;
+use crate::worker::attempt::Attempt;
 
 /// An employer that gives two jobs and then fails for good, or none and waits.
 #[derive(Debug, Default)]
 struct Failing {
     folder: PathBuf,
     waits: bool,
+    /// Whether it can be reached, but takes no files: they are damaged.
+    takes_no_files: bool,
+    finished: Mutex<Vec<Transition>>,
     asked: Mutex<Vec<(i64, usize)>>,
     abandoned: Mutex<Vec<Lease>>,
 }
@@ -65,6 +72,11 @@ impl Employer for Failing {
         _update: &JobUpdate,
         _length: Duration,
     ) -> Result<LeaseState, EmployerError> {
+        if self.takes_no_files {
+            let (what, how) = ("a.vtu".to_owned(), "it is shorter".to_owned());
+            let damaged = ObjectsError::Damaged { what, how };
+            return Err(StoreError::from(damaged).into());
+        }
         Err(failed())
     }
 
@@ -76,8 +88,13 @@ impl Employer for Failing {
         &self,
         _lease: Lease,
         _update: &JobUpdate,
-        _end: &End,
+        end: &End,
     ) -> Result<Option<Status>, EmployerError> {
+        if self.takes_no_files {
+            let mut finished = self.finished.lock().expect("no panic");
+            finished.push(end.transition);
+            return Ok(Some(Status::Cancelled));
+        }
         Err(failed())
     }
 
@@ -96,6 +113,32 @@ impl Employer for Failing {
     async fn demand(&self) -> Result<Demand, EmployerError> {
         Err(failed())
     }
+}
+
+/// What was computed up to the end is part of the results of a job that succeeds; of a cancelled one it may be lost.
+#[tokio::test]
+async fn a_job_whose_last_update_is_refused_does_not_succeed() {
+    let employer = Failing {
+        takes_no_files: true,
+        ..Failing::default()
+    };
+    let claims = employer.claim(&request(i64::MAX, Duration::ZERO)).await;
+    let claim = claims.expect("jobs").pop().expect("a job");
+    let attempt = Attempt {
+        employer: &employer,
+        claim: &claim,
+        config: &WorkerConfig::new(PathBuf::from("/nowhere")),
+        threads: 1,
+    };
+    for transition in [Transition::Succeed, Transition::Cancel] {
+        let end = End::without_result(transition, "the end");
+        let ended = attempt
+            .finalize(&[JobUpdate::default()], 2, (&end, None))
+            .await;
+        assert_eq!(ended.is_ok(), transition == Transition::Cancel);
+    }
+    let finished = employer.finished.lock().expect("no panic");
+    assert_eq!(*finished, [Transition::Cancel]);
 }
 
 #[tokio::test]
