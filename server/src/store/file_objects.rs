@@ -1,8 +1,9 @@
 //! Files of attempts in a store of objects, where several services have one: they need no folder in common.
 //!
-//! A file is written to an object before the update that names it, by the service that gets it from a remote worker, or by that of the worker. Its key is
-//! noted first, and the note is removed in the transaction of the update. While the store of objects takes none, the note has the content, and the
-//! update takes it from there, so that no job waits for the store but one with a larger file. A succeeded job's files are moved into its one object with its other results.
+//! A file is written to an object before the update that names it, by the service that gets it from a remote worker, or by that of
+//! the worker. Its key is noted first, and the note is removed in the transaction of the update. While the store of objects takes none,
+//! the note has the content, and the update takes it from there, so that no job waits for the store but one with a larger file. A
+//! succeeded job's files are moved into its one object with its other results.
 
 use std::borrow::Cow;
 use std::time::Duration;

@@ -16,12 +16,11 @@ use crate::client::Client;
 use crate::export::documents::{CSV, VTU};
 use crate::export::files;
 use crate::http::tests::{Service, row};
-use crate::objects::Objects;
 use crate::queue::Transition;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::block::Block;
 use crate::store::tests::{Place, request};
-use crate::store::{ClaimedCheckpoint, EventName, Limits, NewContent, NewFile, Store};
+use crate::store::{ClaimedCheckpoint, EventName, NewContent, NewFile};
 
 /// Length of a lease.
 const LENGTH: Duration = Duration::from_secs(30);
@@ -58,7 +57,7 @@ macro_rules! with_both {
                 #[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
                 async fn $name() {
                     let place = super::Place::postgres();
-                    let (service, _place) = super::service_with_objects(place).await;
+                    let (service, _place) = super::stored_checkpoint::service_with_objects(place).await;
                     super::$suite(&*service.app.store, &service).await;
                 }
             )+
@@ -70,7 +69,7 @@ macro_rules! with_both {
                 #[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
                 async fn $name() {
                     let place = super::Place::postgres();
-                    let (service, _place) = super::service_with_objects(place).await;
+                    let (service, _place) = super::stored_checkpoint::service_with_objects(place).await;
                     let (remote, _scratch, _stop) = super::remote(&service).await;
                     super::$suite(&remote, &service).await;
                 }
@@ -88,17 +87,6 @@ with_both! {
     a_worker_that_has_lost_its_lease_changes_nothing => lost;
     a_restarted_run_has_no_earlier_results => restarted;
     nothing_waits_or_runs_at_the_end => idle;
-}
-
-/// A service whose large checkpoints are objects in a folder, and on a server its files, too.
-async fn service_with_objects(place: Place) -> (Service, Place) {
-    let address = format!("file://{}", place.folder.path().join("objects").display());
-    let objects = Objects::open(&address).expect("opened");
-    let store = Store::open_with(&place.url, &place.files(), Limits::default()).await;
-    let store = store.expect("a store").with_objects(Some(objects)).await;
-    let mut service = Service::new().await;
-    service.app.store = Arc::new(store.expect("a store"));
-    (service, place)
 }
 
 /// The service as an employer over HTTP, until the guard is dropped.

@@ -1,6 +1,19 @@
 //! A checkpoint that does not come with its claim, with the store and over HTTP.
 
 use super::*;
+use crate::objects::Objects;
+use crate::store::{Limits, Store};
+
+/// A service whose large checkpoints are objects in a folder, and on a server its files, too.
+pub(super) async fn service_with_objects(place: Place) -> (Service, Place) {
+    let address = format!("file://{}", place.folder.path().join("objects").display());
+    let objects = Objects::open(&address).expect("opened");
+    let store = Store::open_with(&place.url, &place.files(), Limits::default()).await;
+    let store = store.expect("a store").with_objects(Some(objects)).await;
+    let mut service = Service::new().await;
+    service.app.store = Arc::new(store.expect("a store"));
+    (service, place)
+}
 
 #[tokio::test]
 async fn the_store_is_asked_for_it() {
