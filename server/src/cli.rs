@@ -128,6 +128,9 @@ enum Command {
         /// The database.
         #[arg(long, env = "FRETWEAR_DATABASE", default_value = DATABASE, hide_env_values = true)]
         database: String,
+        /// With PostgreSQL, where large results are that are no objects: in the folder of this name with `.results` behind it.
+        #[arg(long, env = "FRETWEAR_FILES", default_value = "fretwear")]
+        files: PathBuf,
         /// The store of objects that results were moved to.
         #[arg(long, env = "FRETWEAR_OBJECTS")]
         objects: Option<String>,
@@ -206,7 +209,11 @@ pub fn main() -> ExitCode {
             tls_certificate,
         } => probe::run(listen, tls_certificate.is_some()),
         Command::Backup { into, database } => backup::run(&database, &into),
-        Command::Verify { database, objects } => backup::run_verify(&database, objects.as_deref()),
+        Command::Verify {
+            database,
+            files,
+            objects,
+        } => backup::run_verify(&database, &files, objects.as_deref()),
         Command::Restore { from, database } => backup::run_restore(&from, &database),
         Command::SolveChild(arguments) => child::run(&arguments),
         Command::Client(command) => client::run(command),

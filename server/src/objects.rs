@@ -137,7 +137,7 @@ impl Objects {
         match self.store.head(&Path::from(MARK)).await {
             Ok(_) => Ok(true),
             Err(object_store::Error::NotFound { .. }) => Ok(false),
-            Err(cause) => Err(self.failed(cause.into())),
+            Err(cause) => Err(self.failed(cause)),
         }
     }
 
@@ -148,7 +148,7 @@ impl Objects {
     pub async fn mark(&self) -> Result<(), ObjectsError> {
         let text = "Objects of fretwear are here. Without this one they are not read, written or removed.\n";
         let put = self.store.put(&Path::from(MARK), text.into()).await;
-        put.map_err(|cause| self.failed(cause.into()))?;
+        put.map_err(|cause| self.failed(cause))?;
         Ok(())
     }
 
@@ -159,7 +159,7 @@ impl Objects {
     pub async fn put_whole(&self, key: &str, bytes: Vec<u8>) -> Result<(), ObjectsError> {
         self.check_folder()?;
         let put = self.store.put(&Path::from(key), bytes.into()).await;
-        put.map_err(|cause| self.failed(cause.into()))?;
+        put.map_err(|cause| self.failed(cause))?;
         self.check_folder()
     }
 
@@ -215,17 +215,21 @@ impl Objects {
         ObjectsError::Unmarked(self.location.to_string())
     }
 
-    fn failed(&self, cause: Box<dyn std::error::Error + Send + Sync>) -> ObjectsError {
+    /// The error of a request that failed.
+    pub fn failed(
+        &self,
+        cause: impl Into<Box<dyn std::error::Error + Send + Sync>>,
+    ) -> ObjectsError {
         ObjectsError::Store {
             location: self.location.to_string(),
-            cause,
+            cause: cause.into(),
         }
     }
 
     /// The error of a request for an object: it is missing only in a store with the mark.
     async fn failed_with(&self, key: &str, cause: object_store::Error) -> ObjectsError {
         let object_store::Error::NotFound { .. } = cause else {
-            return self.failed(cause.into());
+            return self.failed(cause);
         };
         match self.is_marked().await {
             Ok(true) => ObjectsError::Missing(key.to_owned()),

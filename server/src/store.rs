@@ -53,6 +53,7 @@ mod batches;
 pub mod block;
 mod changes;
 mod checkpoints;
+mod circuit_breaker;
 mod compression;
 mod database_errors;
 mod disk;
@@ -84,6 +85,7 @@ mod sqlite;
 mod stored_block;
 mod stored_file;
 mod updates;
+mod verification;
 mod workers;
 
 pub use backup::{BackupError, CopySummary};
@@ -104,11 +106,10 @@ pub use leases::{
     Reclaimed, RequestNumber, Write, WriteKind,
 };
 pub use limits::Limits;
-pub use operations::{Store, shown_address};
+pub use operations::{Store, shown_address, verify};
 pub use results::{Chunks, Content, ContentError, NewContent, NewFile, SnapshotPart, StoredEvent};
 pub use sqlite::OWNER_HEARTBEAT;
 pub use sqlite::backup::{backup, restore};
-pub use sqlite::verify::verify;
 pub use workers::{WorkerContact, WorkerOffer};
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
-use tests::{Server, bare_preset, bits, database, fretwear, merged};
+use tests::{Server, address_of_database, bare_preset, bits, database, fretwear, merged};
 
 use faults::files_below;
 use trial::{Engine, Trial};
@@ -110,14 +110,18 @@ async fn chaos(engine: Engine, least_jobs: usize, seed: u64) {
             check_database(&trial.folder, jobs).await;
             check_events(&trial.folder).await;
             check_file(&trial.folder).await;
+            check_results(&trial.folder, &[]);
         }
         Engine::Server => {
             check_database(&trial.folder, jobs).await;
             check_events(&trial.folder).await;
+            check_results(&trial.folder, &[]);
         }
         Engine::Services => {
             check_database(&trial.folder, jobs).await;
             check_objects(&trial).await;
+            let objects = format!("file://{}", trial.results.display());
+            check_results(&trial.folder, &["--objects", &objects]);
         }
     }
     trial.count_all_failed_tasks().await;
@@ -192,8 +196,15 @@ async fn check_objects(trial: &Trial) {
 async fn check_file(folder: &Path) {
     let wrong = "SELECT count(*) FROM job_counts WHERE jobs <> (SELECT count(*) FROM jobs WHERE jobs.status = job_counts.status)";
     assert_eq!(database::number(folder, wrong).await, 0);
-    let verified = fretwear(folder, &["verify"]);
-    assert_eq!(verified.code, Some(0), "{}", verified.stdout);
+}
+
+/// Checks that no result is damaged.
+fn check_results(folder: &Path, options: &[&str]) {
+    let database = address_of_database(folder);
+    let command = ["verify", "--database", &database];
+    let verified = fretwear(folder, &[&command[..], options].concat());
+    let said = (verified.stdout, verified.stderr);
+    assert_eq!(verified.code, Some(0), "{said:?}");
 }
 
 fn number(name: &str) -> Option<u64> {

@@ -11,6 +11,10 @@
 //! `FRETWEAR_WORKERS_SLOTS` of them are in a process (4), which sends their writes together. `FRETWEAR_WORKERS_BUNDLE` is the number of jobs that one
 //! claims at once (1); with `FRETWEAR_WORKERS_ENDS_ONLY` it records nothing between claim and end.
 //!
+//! `waiting` lets `FRETWEAR_WORKERS_WAITING` jobs wait at first (1 000), of which so many are solved:
+//!
+//!     FRETWEAR_WORKERS_WAITING=1000000 FRETWEAR_WORKERS_LOAD=50000,1000 cargo test --release -p tests many_workers::waiting -- --nocapture
+//!
 //! `failover` kills the primary of a PostgreSQL database, `harms` everything that jobs depend on, one after the other; their long form has
 //! so many jobs and workers, and `FRETWEAR_HARMS` harms:
 //!
@@ -20,6 +24,7 @@ mod failover;
 mod harms;
 mod simulated;
 mod sweep;
+mod waiting;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -51,6 +56,12 @@ fn load() -> (usize, usize, usize) {
         panic!("`{asked}` is not JOBS,WORKERS or JOBS,WORKERS,SERVICES");
     };
     (*jobs, *workers, services.first().copied().unwrap_or(1))
+}
+
+/// A number of the environment.
+fn asked(variable: &str, default: usize) -> usize {
+    let asked = std::env::var(variable).ok();
+    asked.map_or(default, |number| number.parse().expect("a number"))
 }
 
 /// Whether so many jobs and workers are asked for that only the rates are of interest.
@@ -108,7 +119,8 @@ async fn solved_once(folder: &Path, services: usize) {
     let server = services.last().expect("one");
     assert_once(server, &ids, &done).await;
     if is_long() {
-        report(server, jobs, elapsed, claims).await;
+        report(jobs, elapsed, claims);
+        report_size(server, jobs).await;
     }
 }
 
@@ -159,7 +171,7 @@ async fn restarted(folder: &Path, server: Server, ids: &[String]) -> Server {
 
 /// Prints rates and times.
 #[expect(clippy::print_stdout, reason = "the long form prints a table")]
-async fn report(server: &Server, jobs: usize, elapsed: Duration, mut claims: Vec<Duration>) {
+fn report(jobs: usize, elapsed: Duration, mut claims: Vec<Duration>) {
     claims.sort_unstable();
     let at = |hundredths: usize| claims[(claims.len() - 1) * hundredths / 100];
     let rate = f64::from(u32::try_from(jobs).expect("small")) / elapsed.as_secs_f64();
@@ -168,7 +180,6 @@ async fn report(server: &Server, jobs: usize, elapsed: Duration, mut claims: Vec
         at(50),
         at(99)
     );
-    report_size(server, jobs).await;
 }
 
 /// Prints the size of the database.

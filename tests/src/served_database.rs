@@ -28,7 +28,7 @@ pub fn use_database(folder: &Path, url: &str) {
 }
 
 /// Address of the database of a folder.
-pub(crate) fn address_of_database(folder: &Path) -> String {
+pub fn address_of_database(folder: &Path) -> String {
     match std::fs::read_to_string(folder.join(ADDRESS)) {
         Ok(url) => url,
         Err(_) if std::env::var_os(EVERYWHERE).is_some() => use_postgresql(folder),

@@ -19,9 +19,9 @@ pub(super) fn run_restore(from: &Path, database: &str) -> Ended {
     report(copied, "copied and verified").map(|_| ())
 }
 
-pub(super) fn run_verify(database: &str, objects: Option<&str>) -> Ended {
+pub(super) fn run_verify(database: &str, files: &Path, objects: Option<&str>) -> Ended {
     let objects = objects.map(Objects::open).transpose().map_err(failed)?;
-    let verified = block_on(verify(database, objects.as_ref()))?;
+    let verified = block_on(verify(database, files, objects.as_ref()))?;
     let damaged = report(verified, "verified")?;
     refuse(damaged, "marked in their manifests")
 }

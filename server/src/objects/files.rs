@@ -60,7 +60,7 @@ impl Objects {
         let path = Path::from(key);
         let mut writer = BufWriter::with_capacity(Arc::clone(&self.store), path, PART_BYTES)
             .with_max_concurrency(PARTS);
-        let failed = |cause: std::io::Error| self.failed(cause.into());
+        let failed = |cause: std::io::Error| self.failed(cause);
         let written = async {
             writer.write_all(head).await.map_err(failed)?;
             for file in files {
@@ -87,7 +87,7 @@ impl Objects {
             sha256.update(&chunk);
             bytes += u64::try_from(chunk.len()).unwrap_or(u64::MAX);
             let written = writer.write_all(&chunk).await;
-            written.map_err(|cause| self.failed(cause.into()))?;
+            written.map_err(|cause| self.failed(cause))?;
         }
         file.check(bytes, &hexadecimal(&sha256.finalize()))
     }

@@ -74,8 +74,6 @@ impl ObjectPart {
         };
         let objects = self.objects.clone();
         let chunks = opened.into_stream();
-        Ok(Box::pin(
-            chunks.map_err(move |cause| objects.failed(cause.into())),
-        ))
+        Ok(Box::pin(chunks.map_err(move |cause| objects.failed(cause))))
     }
 }

@@ -6,7 +6,7 @@
 
 use std::time::Duration;
 
-use tokio::time::{Instant, timeout};
+use tokio::time::timeout;
 use uuid::Uuid;
 
 use crate::objects::ObjectsError;
@@ -19,8 +19,6 @@ const SMALLEST: usize = 64 << 10;
 const LONGEST: Duration = Duration::from_secs(3);
 /// Longest time for reading one.
 const LONGEST_READ: Duration = Duration::from_secs(30);
-/// Time without a try after a failure.
-pub(in crate::store) const PAUSE: Duration = Duration::from_mins(1);
 /// An object that no update has named for as long is removed, ms. Its update is refused before.
 pub(in crate::store) const REMOVED_AFTER_MS: i64 = 15 * 60 * 1000;
 /// Longest time between the note of an object and the update that names it, ms.
@@ -36,39 +34,32 @@ pub(in crate::store) struct CheckpointObject {
 
 impl Store {
     /// Writes the state of a checkpoint to an object; its key, or `None` if the database is to have it.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
     pub(in crate::store) async fn put_checkpoint(
         &self,
         lease: Lease,
         checkpoint: &EncodedCheckpoint,
-    ) -> Option<String> {
-        let objects = self.local().objects.as_ref()?;
+    ) -> Result<Option<String>, StoreError> {
         // What replaces the checkpoints of a copied database would never be removed.
         if checkpoint.state.len() < SMALLEST || !self.local().removes_objects {
-            return None;
+            return Ok(None);
         }
-        let failure = &self.local().objects_failed_at;
-        let failed_at = *failure.lock().await;
-        if failed_at.is_some_and(|at| at.elapsed() < PAUSE) {
-            return None;
+        let Some(objects) = &self.local().objects else {
+            return Ok(None);
+        };
+        if self.check_circuit(objects).await.is_err() {
+            return Ok(None);
         }
         let key = format!("checkpoints/{}/{}", lease.job, Uuid::now_v7());
-        let put = async {
-            self.check_mark(objects).await?;
-            self.note_object(&key).await?;
-            let put = objects.put_whole(&key, checkpoint.state.clone()).await;
-            put.map_err(StoreError::from)
-        };
-        let error = match timeout(LONGEST, put).await {
-            Ok(Ok(())) => return Some(key),
-            Ok(Err(error)) => error.to_string(),
-            Err(_) => format!("no answer within {LONGEST:?}"),
-        };
-        tracing::warn!(
-            error,
-            "the store of objects took no checkpoint; the database has them for {PAUSE:?}"
-        );
-        *failure.lock().await = Some(Instant::now());
-        None
+        self.note_object(&key).await?;
+        let put = objects.put_whole(&key, checkpoint.state.clone());
+        match self.write_in_time(objects, LONGEST, put).await {
+            Ok(()) => Ok(Some(key)),
+            Err(StoreError::Objects(_)) => Ok(None),
+            Err(error) => Err(error),
+        }
     }
 
     /// The checkpoint of a held job that is in an object; `None` if it is damaged or missing, or if the lease was lost.
@@ -87,10 +78,8 @@ impl Store {
         let objects = self.local().objects.as_ref().ok_or(StoreError::NoObjects)?;
         let read = timeout(LONGEST_READ, objects.get_all(&key)).await;
         let read = read.unwrap_or_else(|_| {
-            Err(ObjectsError::Store {
-                location: objects.location().to_owned(),
-                cause: format!("no answer within {LONGEST_READ:?}").into(),
-            })
+            let cause = format!("no answer within {LONGEST_READ:?}");
+            Err(objects.failed(cause))
         });
         match read {
             Ok(state) => Ok(integrity::checkpoint(lease.job, cycle, &sha256, state)),

@@ -10,11 +10,10 @@ use std::time::Duration;
 
 use tempfile::TempPath;
 use tokio::sync::SemaphorePermit;
-use tokio::time::{Instant, timeout};
+use tokio::time::timeout;
 use uuid::Uuid;
 
 use crate::objects::{ObjectFile, Objects, ObjectsError, Source};
-use crate::store::checkpoints::PAUSE;
 use crate::store::local::FILE_WRITES_MB;
 use crate::store::{JobUpdate, Lease, LeaseState, NewContent, NewFile, Store, StoreError};
 
@@ -61,6 +60,23 @@ fn megabytes(bytes: u64) -> u32 {
     u32::try_from(bytes >> 20).unwrap_or(u32::MAX)
 }
 
+/// Why a large file is not written yet.
+fn large(bytes: u64, error: StoreError) -> StoreError {
+    match error {
+        StoreError::Objects(ObjectsError::Store { location, cause }) => {
+            let (file, most) = (megabytes(bytes), megabytes(LARGEST));
+            let cause = format!(
+                "{cause}; a file of {file} MB waits for it, since the database takes {most} MB at most"
+            );
+            StoreError::Objects(ObjectsError::Store {
+                location,
+                cause: cause.into(),
+            })
+        }
+        error => error,
+    }
+}
+
 impl Store {
     /// Whether files of attempts are objects.
     pub fn has_files_as_objects(&self) -> bool {
@@ -88,7 +104,7 @@ impl Store {
         let (content, _memory) = match self.put_in_time(objects, &key, file).await {
             Ok(()) => (None, None),
             Err(error @ StoreError::Objects(ObjectsError::Damaged { .. })) => return Err(error),
-            Err(error) if file.bytes > LARGEST => return Err(error),
+            Err(error) if file.bytes > LARGEST => return Err(large(file.bytes, error)),
             Err(_) => {
                 let memory = self.memory_of(file, LARGEST_MB).await;
                 (Some(file.read().await?), memory)
@@ -110,40 +126,13 @@ impl Store {
         key: &str,
         file: &ObjectFile,
     ) -> Result<(), StoreError> {
-        let unanswered = |cause: String| ObjectsError::Store {
-            location: objects.location().to_owned(),
-            cause: cause.into(),
-        };
-        let failure = &self.local().objects_failed_at;
-        if failure.lock().await.is_some_and(|at| at.elapsed() < PAUSE) {
-            let cause = format!("it has failed, and is tried again after {PAUSE:?}");
-            return Err(unanswered(cause).into());
-        }
+        self.check_circuit(objects).await?;
         let Ok(_memory) = timeout(LONGEST_WAIT, self.memory_of(file, MOST_MB)).await else {
             let cause = format!("files of {FILE_WRITES_MB} MB are being written");
-            return Err(unanswered(cause).into());
+            return Err(objects.failed(cause).into());
         };
-        let put = async {
-            self.check_mark(objects).await?;
-            let put = objects.put(key, &[], std::slice::from_ref(file)).await;
-            put.map_err(StoreError::from)
-        };
-        let longest = longest(file.bytes);
-        let put = timeout(longest, put).await.unwrap_or_else(|_| {
-            let cause = format!("no answer within {longest:?}");
-            Err(unanswered(cause).into())
-        });
-        if let Err(StoreError::Objects(
-            error @ (ObjectsError::Store { .. } | ObjectsError::Unmarked(_)),
-        )) = &put
-        {
-            tracing::warn!(
-                %error,
-                "the store of objects took no file; the database has them for {PAUSE:?}"
-            );
-            *failure.lock().await = Some(Instant::now());
-        }
-        put
+        let put = objects.put(key, &[], std::slice::from_ref(file));
+        self.write_in_time(objects, longest(file.bytes), put).await
     }
 
     /// Waits for memory for a file, up to a limit.

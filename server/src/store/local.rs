@@ -47,7 +47,7 @@ pub(in crate::store) struct Local {
     pub(in crate::store) removes_objects: bool,
     /// Memory for files that are written there, MB.
     pub(in crate::store) file_writes: Semaphore,
-    /// When they took no checkpoint the last time.
+    /// When a write failed there the last time.
     pub(in crate::store) objects_failed_at: Mutex<Option<Instant>>,
     /// The machine's calibration cache.
     pub(in crate::store) machine: PathBuf,

@@ -31,6 +31,12 @@ pub(in crate::store) fn migrator_of(files: &[(&str, &'static str)]) -> Migrator 
     Migrator::with_migrations(files.iter().filter_map(migration).collect())
 }
 
+/// Version of the newest migration.
+pub(in crate::store) fn newest_version(migrator: &Migrator) -> i64 {
+    let versions = migrator.iter().map(|migration| migration.version);
+    versions.max().unwrap_or_default()
+}
+
 #[cfg(test)]
 pub(in crate::store) mod tests {
     use super::*;

@@ -44,6 +44,7 @@ mod object_names;
 mod objects;
 mod order;
 mod roles;
+mod verification;
 mod workers;
 mod writes;
 

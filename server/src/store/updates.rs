@@ -20,7 +20,7 @@ impl Store {
         let lease = lease.into();
         let mut update = self.with_file_objects(lease, update).await?;
         if let Some(checkpoint) = &update.checkpoint
-            && let Some(key) = self.put_checkpoint(lease, checkpoint).await
+            && let Some(key) = self.put_checkpoint(lease, checkpoint).await?
         {
             update.to_mut().checkpoint_object = Some(key);
         }

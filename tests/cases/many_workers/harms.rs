@@ -17,6 +17,8 @@ use super::{AT_ONCE, SPEC, assert_once, is_long, load};
 
 /// How long something is away: much shorter than a lease.
 const AWAY: Duration = Duration::from_millis(1_500);
+/// How long the store of objects is away in the long form: nothing depends on it.
+const OBJECTS_AWAY: Duration = Duration::from_mins(1);
 /// An hour, s.
 const STEP_S: i64 = 3_600;
 /// Settings of a server whose commits must survive.
@@ -130,7 +132,8 @@ impl<'a> System<'a> {
                 let away = self.folder.join("objects-away");
                 std::fs::rename(&self.objects, &away).expect("moved");
                 std::fs::write(&self.objects, "").expect("a file in its place");
-                tokio::time::sleep(AWAY).await;
+                let away_for = if is_long() { OBJECTS_AWAY } else { AWAY };
+                tokio::time::sleep(away_for).await;
                 std::fs::remove_file(&self.objects).expect("removed");
                 std::fs::rename(&away, &self.objects).expect("moved back");
             }

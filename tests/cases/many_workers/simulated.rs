@@ -1,7 +1,7 @@
 //! Simulated workers: they claim, record and end over HTTP as real ones do, and solve nothing.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 use std::sync::{Arc, LazyLock, Mutex};
 use std::time::{Duration, Instant};
 
@@ -18,6 +18,8 @@ use server::worker::{Employer, EmployerError, Remote};
 use tokio::task::JoinSet;
 use uuid::Uuid;
 
+use super::asked;
+
 /// Length of a lease where workers vanish: their jobs are soon given to others.
 const SHORT_LEASE: Duration = Duration::from_secs(10);
 /// Length of one where none does: longer than anything is away, also on a busy machine.
@@ -32,11 +34,32 @@ const PAUSE: Duration = Duration::from_millis(100);
 pub(super) struct Done {
     /// Attempts of workers that have vanished, or that the machine did not let renew their lease in time.
     pub(super) lost: AtomicU32,
+    /// Jobs that they have ended.
+    ended: AtomicUsize,
+    /// Number of them after which no more are claimed.
+    enough: Option<usize>,
     /// When the last job ended.
     last_end: Mutex<Option<Instant>>,
 }
 
 impl Done {
+    /// Of workers that claim no more once so many jobs have ended.
+    pub(super) fn of(enough: usize) -> Self {
+        Self {
+            enough: Some(enough),
+            ..Self::default()
+        }
+    }
+
+    /// Number of jobs that have ended.
+    pub(super) fn ended(&self) -> usize {
+        self.ended.load(Ordering::Relaxed)
+    }
+
+    fn is_enough(&self) -> bool {
+        self.enough.is_some_and(|enough| self.ended() >= enough)
+    }
+
     /// When the last job ended; now if none has.
     pub(super) fn last_end(&self) -> Instant {
         let last = *self.last_end.lock().expect("no panic");
@@ -79,9 +102,9 @@ struct Simulated {
 }
 
 impl Simulated {
-    /// Works until no job waits or runs.
+    /// Works until no job waits or runs, or enough have ended.
     async fn work(mut self) -> Vec<Duration> {
-        loop {
+        while !self.done.is_enough() {
             let claims = self.claim().await;
             if claims.is_empty() {
                 let remote = Arc::clone(&self.remote);
@@ -95,6 +118,7 @@ impl Simulated {
                 self.solve(&claim).await;
             }
         }
+        self.claims
     }
 
     /// Repeats a request until it is answered, and then once more at random: its answer was lost.
@@ -178,6 +202,7 @@ impl Simulated {
         match ended {
             Some(status) => {
                 assert_eq!(status.as_str(), "succeeded");
+                self.done.ended.fetch_add(1, Ordering::Relaxed);
                 *self.done.last_end.lock().expect("no panic") = Some(Instant::now());
             }
             None => drop(self.done.lost.fetch_add(1, Ordering::Relaxed)),
@@ -197,12 +222,6 @@ static DOCUMENTS: LazyLock<EncodedBlock> = LazyLock::new(|| {
 /// Whether workers record nothing between claim and end.
 pub(super) static ENDS_ONLY: LazyLock<bool> =
     LazyLock::new(|| std::env::var_os("FRETWEAR_WORKERS_ENDS_ONLY").is_some());
-
-/// A number of the environment.
-fn asked(variable: &str, default: usize) -> usize {
-    let asked = std::env::var(variable).ok();
-    asked.map_or(default, |number| number.parse().expect("a number"))
-}
 
 /// Starts workers, several in a process, which is for one of the services.
 pub(super) fn started(

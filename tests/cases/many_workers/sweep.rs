@@ -99,7 +99,7 @@ async fn solved_once(folder: &Path, services: usize) {
         assert_whole(server, &path, jobs).await;
     }
     if is_long() {
-        report(&services[0], jobs, elapsed, claims).await;
+        report(jobs, elapsed, claims);
         moved(&services[0]).await;
         say(&format!("results are objects after {:?}", began.elapsed()));
         report_size(&services[0], jobs).await;
@@ -138,7 +138,7 @@ fn axes(jobs: usize) -> [Vec<f64>; 2] {
 }
 
 /// Submits a sweep of so many jobs.
-async fn submitted(server: &Server, jobs: usize) -> Value {
+pub(super) async fn submitted(server: &Server, jobs: usize) -> Value {
     let base: Value = serde_json::from_str(SPEC).expect("JSON");
     let [coefficients, amplitudes] = axes(jobs);
     let grid = json!({"/cycles": CYCLES, COEFFICIENT: coefficients, AMPLITUDE: amplitudes});
@@ -183,10 +183,10 @@ async fn assert_whole(server: &Server, path: &str, jobs: usize) {
 }
 
 #[expect(clippy::print_stdout, reason = "the long form prints figures")]
-fn say(text: &str) {
+pub(super) fn say(text: &str) {
     println!("{text}");
 }
 
-fn number(value: &Value) -> u64 {
+pub(super) fn number(value: &Value) -> u64 {
     value.as_u64().expect("a number")
 }

@@ -2,7 +2,7 @@
 
 use sqlx::migrate::Migrator;
 
-use crate::store::migrations::{file, migrator_of};
+use crate::store::migrations::{self, file, migrator_of};
 
 /// All files of the folder; a name is the version and what it is about.
 const FILES: [(&str, &str); 5] = [
@@ -16,6 +16,11 @@ const FILES: [(&str, &str); 5] = [
 /// Applies the migrations that a database does not have; refuses a database with others.
 pub(super) fn migrator() -> Migrator {
     migrator_of(&FILES)
+}
+
+/// Version of the newest one.
+pub(super) fn newest_version() -> i64 {
+    migrations::newest_version(&migrator())
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Opening the store: address, connections, migrations.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::time::Duration;
 
@@ -16,9 +16,10 @@ use crate::export::files::parent;
 use crate::groups::Groups;
 use crate::store::local::Local;
 use crate::store::postgres::PostgresStore;
-use crate::store::postgres::migrations::migrator;
+use crate::store::postgres::durability;
+use crate::store::postgres::migrations::{migrator, newest_version};
 use crate::store::postgres::notifications::{hear, tell};
-use crate::store::{Limits, StoreError};
+use crate::store::{BackupError, Limits, StoreError};
 
 /// Number of connections for claims and writes, among them one that tells changes.
 const WRITERS: u32 = 9;
@@ -111,6 +112,25 @@ impl PostgresStore {
     }
 }
 
+/// Connections to the database at `url` for a verification, whose schema this version knows.
+pub(super) async fn open_to_verify(url: &str) -> Result<PgPool, BackupError> {
+    let options = options(url)?;
+    let path = PathBuf::from(options.get_database().unwrap_or_default());
+    let database = connect(READERS, options.options(SETTINGS)).await?;
+    let mut connection = database.acquire().await?;
+    let found = applied(&mut connection).await?;
+    let known = newest_version();
+    match found {
+        None => Err(BackupError::NoDatabase(path)),
+        Some(found) if found < known => Err(BackupError::Older { path, found, known }),
+        Some(found) if found > known => Err(StoreError::Newer { path, found, known }.into()),
+        Some(_) => {
+            drop(connection);
+            Ok(database)
+        }
+    }
+}
+
 /// Opens a pool of so many connections.
 async fn connect(connections: u32, options: PgConnectOptions) -> Result<PgPool, sqlx::Error> {
     PgPoolOptions::new()
@@ -182,8 +202,8 @@ async fn migrate(options: &PgConnectOptions) -> Result<(), StoreError> {
     let mut server = PgConnection::connect_with(options).await?;
     refuse_standby(&mut server).await?;
     check_version(&mut server).await?;
-    let known = migrator().iter().map(|migration| migration.version).max();
-    if applied(&mut server).await? != known {
+    durability::warn(&mut server).await?;
+    if applied(&mut server).await? != Some(newest_version()) {
         migrator().run(&mut server).await?;
     }
     // The transactions of another cluster, from which the database was restored, had higher numbers. That of this statement is above all

@@ -2,7 +2,7 @@
 
 use sqlx::migrate::Migrator;
 
-use crate::store::migrations::{file, migrator_of};
+use crate::store::migrations::{self, file, migrator_of};
 
 /// All files of the folder; a name is the version and what it is about.
 const FILES: [(&str, &str); 29] = [
@@ -42,14 +42,9 @@ pub(super) fn migrator() -> Migrator {
     migrator_of(&FILES)
 }
 
-/// Version of the newest migration.
+/// Version of the newest one.
 pub(super) fn newest_version() -> i64 {
-    let versions = migrator();
-    versions
-        .iter()
-        .map(|migration| migration.version)
-        .max()
-        .unwrap_or_default()
+    migrations::newest_version(&migrator())
 }
 
 #[cfg(test)]

@@ -19,7 +19,7 @@ on_both_engines! { WithObjects:
 }
 
 /// A checkpoint large enough for an object.
-fn large(cycle: u64) -> EncodedCheckpoint {
+pub(super) fn large(cycle: u64) -> EncodedCheckpoint {
     EncodedCheckpoint {
         cycle,
         state: (0..100_000_u64).map(|n| (n % 251) as u8).collect(),
@@ -52,7 +52,7 @@ impl WithObjects {
     }
 
     /// A job whose worker has written a checkpoint and given it back, under its next lease.
-    async fn resumed(&self, checkpoint: EncodedCheckpoint) -> Claim {
+    pub(super) async fn resumed(&self, checkpoint: EncodedCheckpoint) -> Claim {
         let claim = self.running().await;
         let update = update_with(checkpoint);
         self.store.record_next(&claim, &update).await;
@@ -225,35 +225,6 @@ async fn a_database_with_a_checkpoint_elsewhere_is_not_opened_without_it(databas
     let without = opened(&place, None).await;
     assert!(matches!(without, Err(StoreError::NoObjects)), "{without:?}");
     opened(&place, Some("objects")).await.expect("a store");
-}
-
-#[tokio::test]
-async fn a_missing_or_damaged_checkpoint_is_found() {
-    let database = WithObjects::at(Place::sqlite()).await;
-    let claim = database.resumed(large(7)).await;
-    let url = format!(
-        "sqlite://{}",
-        database.place.folder.path().join("test.db").display()
-    );
-    let objects = Objects::open(&format!("file://{}", database.folder().display()));
-    let objects = objects.expect("opened");
-    let damaged = async || {
-        let verified = verify(&url, Some(&objects)).await;
-        verified.expect("verified").damaged
-    };
-    assert_eq!(damaged().await, Vec::<String>::new());
-    assert!(verify(&url, None).await.is_err(), "it is not there");
-    let object = database.objects().pop().expect("an object");
-    std::fs::write(&object, "damaged").expect("written");
-    let said = format!("checkpoint of job {}: it has the SHA-256", claim.id);
-    let found = damaged().await;
-    assert!(found.len() == 1 && found[0].starts_with(&said), "{found:?}");
-    std::fs::remove_file(&object).expect("removed");
-    let found = damaged().await;
-    assert!(
-        found.len() == 1 && found[0].contains("does not exist"),
-        "{found:?}"
-    );
 }
 
 /// Its original names the same objects.

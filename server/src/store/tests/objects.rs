@@ -230,44 +230,6 @@ async fn a_job_with_a_damaged_file_keeps_its_results_and_others_are_moved(databa
     );
 }
 
-#[tokio::test]
-async fn a_missing_or_damaged_object_is_found() {
-    let database = WithObjects::at(Place::sqlite()).await;
-    let id = database.ended(Transition::Succeed).await;
-    database.moved().await;
-    let folder = database.place.folder.path();
-    let url = format!("sqlite://{}", folder.join("test.db").display());
-    let objects = Objects::open(&format!("file://{}", folder.join("objects").display()));
-    let objects = objects.expect("opened");
-    let damaged = async || {
-        verify(&url, Some(&objects))
-            .await
-            .expect("verified")
-            .damaged
-    };
-    assert_eq!(damaged().await, Vec::<String>::new());
-    assert!(verify(&url, None).await.is_err(), "they are not there");
-    let object = &database.objects()[0];
-    let mut bytes = std::fs::read(object).expect("read");
-    *bytes.last_mut().expect("a byte") ^= 1;
-    std::fs::write(object, &bytes).expect("written");
-    let said = damaged().await;
-    assert!(
-        said.len() == 1 && said[0].starts_with("a.vtu of job"),
-        "{said:?}"
-    );
-    let manifest = database.store.manifest(id).await.expect("the store");
-    assert!(manifest[0].damaged.is_some(), "{manifest:?}");
-    std::fs::remove_file(object).expect("removed");
-    let said = damaged().await;
-    assert!(
-        said.len() == 1 && said[0].contains("does not exist"),
-        "{said:?}"
-    );
-    let unread = database.read(id, "b.csv").await;
-    assert!(matches!(unread, Err(StoreError::Objects(_))), "{unread:?}");
-}
-
 async fn a_database_whose_results_are_elsewhere_is_not_opened_without_them(database: WithObjects) {
     database.ended(Transition::Succeed).await;
     database.store.close().await;

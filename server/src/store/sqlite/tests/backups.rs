@@ -77,7 +77,9 @@ async fn damaged_files_do_not_prevent_a_backup_and_are_marked_in_it() {
     let copied = backup(&fixture.url, &into).await.expect("a backup");
     assert_eq!((copied.jobs, copied.files, copied.damaged.len()), (3, 1, 2));
 
-    let verified = verify(&fixture.url, None).await.expect("verified");
+    let verified = verify(&fixture.url, Path::new("none"), None)
+        .await
+        .expect("verified");
     assert_eq!((verified.jobs, verified.files), (3, 3));
     assert_eq!(verified.damaged.len(), 2, "{verified:?}");
     let url = format!(

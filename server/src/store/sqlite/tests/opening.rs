@@ -1,5 +1,6 @@
 //! Opening: one process serves a database, and a file of another program or version is refused.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -91,7 +92,9 @@ async fn files_of_other_programs_are_refused_and_not_changed() {
         let into = folder.path().join("backup");
         for refused in [
             backup(&url, &into).await.expect_err("refused"),
-            verify(&url, None).await.expect_err("refused"),
+            verify(&url, Path::new("none"), None)
+                .await
+                .expect_err("refused"),
         ] {
             assert!(refused.to_string().contains(words), "{refused}");
         }
@@ -129,7 +132,7 @@ async fn a_missing_folder_is_refused_and_not_created() {
         refused,
         format!("the folder {} does not exist", missing.display())
     );
-    assert!(verify(&url, None).await.is_err());
+    assert!(verify(&url, Path::new("none"), None).await.is_err());
     assert!(!missing.exists());
 }
 

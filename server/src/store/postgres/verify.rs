@@ -1,0 +1,128 @@
+//! Verification of all results that a database names. The database itself is checked by the server's own tools (`pg_amcheck`,
+//! checksums of pages).
+
+use std::path::Path;
+
+use sqlx::postgres::{PgPool, PgRow};
+use uuid::Uuid;
+
+use crate::objects::Objects;
+use crate::store::folder::Folder;
+use crate::store::postgres::blocks::stored_block;
+use crate::store::postgres::open::open_to_verify;
+use crate::store::rows::{StoredRow, entry};
+use crate::store::stored_block::StoredBlock;
+use crate::store::verification::{CheckpointRow, FileRow, Verification, Verified};
+use crate::store::{BackupError, CopySummary, StoreError};
+
+/// Verifies the database at `url`, whose large results may be in the folder `files`.results.
+pub(in crate::store) async fn verify(
+    url: &str,
+    files: &Path,
+    objects: Option<&Objects>,
+) -> Result<CopySummary, BackupError> {
+    let database = open_to_verify(url).await?;
+    let folder = Folder::beside(files);
+    if !folder.exists() && has_files_in_folder(&database).await? {
+        let path = folder.root().to_owned();
+        return Err(StoreError::NoFolder { path }.into());
+    }
+    let verification = Verification {
+        database: &database,
+        folder: &folder,
+        objects,
+    };
+    let verified = verification.run().await;
+    database.close().await;
+    verified
+}
+
+async fn has_files_in_folder(database: &PgPool) -> Result<bool, StoreError> {
+    let has_files =
+        sqlx::query_scalar("SELECT EXISTS (SELECT FROM result_files WHERE place IS NOT NULL)");
+    Ok(has_files.fetch_one(database).await?)
+}
+
+impl Verified for PgPool {
+    async fn jobs(&self) -> Result<Vec<Uuid>, StoreError> {
+        let jobs = sqlx::query_scalar("SELECT id FROM jobs ORDER BY id");
+        Ok(jobs.fetch_all(self).await?)
+    }
+
+    async fn block(&self, job: Uuid) -> Result<Option<StoredBlock>, StoreError> {
+        let mut connection = self.acquire().await?;
+        Ok(stored_block(&mut connection, job).await?)
+    }
+
+    async fn mark_block(&self, job: Uuid, old: &[u8], new: &[u8]) -> Result<(), StoreError> {
+        sqlx::query("UPDATE result_blocks SET entries = $1 WHERE job_id = $2 AND entries = $3")
+            .bind(new)
+            .bind(job)
+            .bind(old)
+            .execute(self)
+            .await?;
+        Ok(())
+    }
+
+    async fn files(&self, job: Uuid) -> Result<Vec<FileRow>, StoreError> {
+        let rows = sqlx::query(
+            "SELECT name, cycle, media_type, bytes, sha256, damaged, place, object FROM result_files WHERE job_id = $1 ORDER BY name",
+        )
+        .bind(job)
+        .fetch_all(self)
+        .await?;
+        let file = |row: &PgRow| {
+            Ok(FileRow {
+                entry: entry(row)?,
+                place: row.optional_text("place")?,
+                object: row.optional_text("object")?,
+            })
+        };
+        rows.iter().map(file).collect()
+    }
+
+    async fn content(&self, job: Uuid, name: &str) -> Result<Option<Vec<u8>>, StoreError> {
+        let content =
+            sqlx::query_scalar("SELECT content FROM result_files WHERE job_id = $1 AND name = $2");
+        let content = content.bind(job).bind(name);
+        Ok(content.fetch_optional(self).await?.flatten())
+    }
+
+    async fn mark_file(
+        &self,
+        job: Uuid,
+        file: &FileRow,
+        how: Option<&str>,
+    ) -> Result<(), StoreError> {
+        sqlx::query(
+            "UPDATE result_files SET damaged = $1 WHERE job_id = $2 AND name = $3 \
+             AND place IS NOT DISTINCT FROM $4 AND object IS NOT DISTINCT FROM $5",
+        )
+        .bind(how)
+        .bind(job)
+        .bind(&file.entry.name)
+        .bind(&file.place)
+        .bind(&file.object)
+        .execute(self)
+        .await?;
+        Ok(())
+    }
+
+    async fn checkpoint(&self, job: Uuid) -> Result<Option<CheckpointRow>, StoreError> {
+        let row: Option<(Vec<u8>, Vec<u8>, Option<String>)> =
+            sqlx::query_as("SELECT sha256, state, object FROM checkpoints WHERE job_id = $1")
+                .bind(job)
+                .fetch_optional(self)
+                .await?;
+        Ok(row.map(|(sha256, state, object)| CheckpointRow {
+            sha256,
+            state,
+            object,
+        }))
+    }
+
+    async fn is_copy(&self) -> Result<bool, StoreError> {
+        let copy = sqlx::query_scalar("SELECT EXISTS (SELECT FROM object_store WHERE NOT removes)");
+        Ok(copy.fetch_one(self).await?)
+    }
+}
