@@ -189,6 +189,17 @@ impl Objects {
         }
     }
 
+    /// Length of an object, bytes.
+    ///
+    /// # Errors
+    /// [`ObjectsError`].
+    pub async fn length(&self, key: &str) -> Result<u64, ObjectsError> {
+        match self.store.head(&Path::from(key)).await {
+            Ok(object) => Ok(object.size),
+            Err(cause) => Err(self.failed_with(key, cause).await),
+        }
+    }
+
     /// Removes an object; there may be none.
     ///
     /// # Errors

@@ -86,6 +86,8 @@ mod stored_block;
 mod stored_file;
 mod updates;
 mod verification;
+mod verified;
+mod verified_content;
 mod workers;
 
 pub use backup::{BackupError, CopySummary};

@@ -8,7 +8,9 @@ use futures_util::stream::BoxStream;
 use futures_util::{StreamExt, TryStreamExt};
 use nix::sys::signal::Signal;
 use serde_json::{Value, json};
-use tests::{RemoteWorker, Server, bits, fuzz_button_with_jump, use_postgresql};
+use tests::{
+    Log, PostgresServer, RemoteWorker, Server, bits, fuzz_button_with_jump, use_postgresql,
+};
 
 /// A short lease, so that the jobs of a service that was killed are soon taken by another; not a measure of speed.
 const LEASE: [&str; 2] = ["--lease-s", "2"];
@@ -244,4 +246,32 @@ async fn a_worker_of_one_service_is_listed_and_drained_by_another() {
     let id = submitted(&first, with_fields().to_string()).await;
     let _other = RemoteWorker::start(folder.path(), &first.base, &[]);
     assert_eq!(ended(&second, &id).await["status"], "succeeded");
+}
+
+#[tokio::test]
+#[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
+async fn a_service_warns_where_a_failover_would_lose_commits() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let primary = PostgresServer::start(&["max_connections=50"]);
+    tests::use_database(folder.path(), &primary.new_database());
+    let _standby = primary.standby();
+    let log = folder.path().join("log");
+    let warns = || {
+        let options = ["--workers", "0"];
+        let started = Server::start_logging(folder.path(), &options, &[], &Log::File(log.clone()));
+        started.expect("it serves");
+        let said = std::fs::read_to_string(&log).expect("a log");
+        said.contains("can lose what it has acknowledged")
+    };
+    assert!(!warns(), "every commit is confirmed by the standby");
+    primary.answer("ALTER SYSTEM RESET synchronous_standby_names");
+    primary.answer("SELECT pg_reload_conf()");
+    while !primary
+        .answer("SHOW synchronous_standby_names")
+        .trim()
+        .is_empty()
+    {
+        tokio::time::sleep(Duration::from_millis(50)).await;
+    }
+    assert!(warns(), "the standby confirms none");
 }

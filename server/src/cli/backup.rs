@@ -36,14 +36,25 @@ fn report(
         files,
         file_bytes,
         damaged,
+        unread,
     } = done.map_err(failed)?;
     for file in &damaged {
         write_out(format_args!("damaged: {file}"))?;
     }
+    for file in &unread {
+        write_out(format_args!("not read: {file}"))?;
+    }
     write_out(format_args!(
         "{jobs} jobs and {files} files of {file_bytes} bytes {what}"
     ))?;
-    Ok(damaged.len())
+    if unread.is_empty() {
+        return Ok(damaged.len());
+    }
+    Err(failed(format_args!(
+        "{} results could not be read, so that not all are verified; {} damaged ones were found",
+        unread.len(),
+        damaged.len()
+    )))
 }
 
 /// Fails if results are damaged.

@@ -65,6 +65,9 @@ impl ObjectPart {
     ) -> Result<BoxStream<'static, Result<Bytes, ObjectsError>>, ObjectsError> {
         let from = self.range.start + within.start;
         let until = self.range.end.min(self.range.start + within.end);
+        if from >= until {
+            return Ok(Box::pin(futures_util::stream::empty()));
+        }
         let path = Path::from(&*self.key);
         let options = GetOptions::new().with_range(Some(GetRange::Bounded(from..until)));
         let opened = self.objects.store.get_opts(&path, options);

@@ -69,6 +69,8 @@ pub struct CopySummary {
     pub files: usize,
     /// Size of the result files, bytes.
     pub file_bytes: u64,
-    /// The damaged ones among the others, and how.
+    /// The damaged ones, and how.
     pub damaged: Vec<String>,
+    /// Those that could not be read, and why.
+    pub unread: Vec<String>,
 }

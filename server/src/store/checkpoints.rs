@@ -53,11 +53,14 @@ impl Store {
             return Ok(None);
         }
         let key = format!("checkpoints/{}/{}", lease.job, Uuid::now_v7());
-        self.note_object(&key).await?;
-        let put = objects.put_whole(&key, checkpoint.state.clone());
+        let put = async {
+            self.note_object(&key).await?;
+            let put = objects.put_whole(&key, checkpoint.state.clone());
+            Ok(put.await?)
+        };
         match self.write_in_time(objects, LONGEST, put).await {
             Ok(()) => Ok(Some(key)),
-            Err(StoreError::Objects(_)) => Ok(None),
+            Err(StoreError::Objects(_) | StoreError::OtherObjects { .. }) => Ok(None),
             Err(error) => Err(error),
         }
     }

@@ -28,8 +28,8 @@ impl Store {
         Err(objects.failed(cause).into())
     }
 
-    /// Does a write, unless that takes too long. A failure of the store of objects opens the circuit; one of the database, or a damaged file,
-    /// says nothing about it.
+    /// Does a write to the store of this database, unless that takes too long, which opens the circuit as a failure of the store does. An error of
+    /// the database, or a damaged file, says nothing about it.
     ///
     /// # Errors
     /// [`StoreError`] if it fails.
@@ -37,20 +37,19 @@ impl Store {
         &self,
         objects: &Objects,
         longest: Duration,
-        write: impl Future<Output = Result<(), ObjectsError>>,
+        write: impl Future<Output = Result<(), StoreError>>,
     ) -> Result<(), StoreError> {
         let marked_write = async {
             self.check_mark(objects).await?;
-            Ok(write.await?)
+            write.await
         };
         let written = timeout(longest, marked_write).await;
         let written = written.unwrap_or_else(|_| {
             let cause = format!("no answer within {longest:?}");
             Err(objects.failed(cause).into())
         });
-        if let Err(StoreError::Objects(
-            error @ (ObjectsError::Store { .. } | ObjectsError::Unmarked(_)),
-        )) = &written
+        if let Err(error) = &written
+            && is_of_objects(error)
         {
             tracing::warn!(
                 %error,
@@ -59,5 +58,17 @@ impl Store {
             *self.local().objects_failed_at.lock().await = Some(Instant::now());
         }
         written
+    }
+}
+
+/// Whether an error is one of the store of objects, or of which store it is.
+fn is_of_objects(error: &StoreError) -> bool {
+    match error {
+        StoreError::OtherObjects { .. } => true,
+        StoreError::Objects(error) => !matches!(
+            error,
+            ObjectsError::Damaged { .. } | ObjectsError::File { .. }
+        ),
+        _ => false,
     }
 }

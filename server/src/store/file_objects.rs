@@ -131,7 +131,7 @@ impl Store {
             let cause = format!("files of {FILE_WRITES_MB} MB are being written");
             return Err(objects.failed(cause).into());
         };
-        let put = objects.put(key, &[], std::slice::from_ref(file));
+        let put = async { Ok(objects.put(key, &[], std::slice::from_ref(file)).await?) };
         self.write_in_time(objects, longest(file.bytes), put).await
     }
 

@@ -35,11 +35,6 @@ impl Folder {
         }
     }
 
-    /// Its path.
-    pub(in crate::store) fn root(&self) -> &Path {
-        &self.root
-    }
-
     /// Returns the folder of an attempt.
     pub(in crate::store) fn of_attempt(&self, id: Uuid, lease: i64) -> PathBuf {
         self.root.join(id.to_string()).join(lease.to_string())

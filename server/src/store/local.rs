@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use api::job::Status;
 use tokio::sync::{Mutex, Notify, OnceCell, Semaphore, broadcast, mpsc};
@@ -43,6 +44,10 @@ pub(in crate::store) struct Local {
     pub(in crate::store) objects: Option<Objects>,
     /// Once they are known to be those of this database.
     pub(in crate::store) objects_checked: OnceCell<()>,
+    /// The last job whose results were to be moved there; nil at first, and after the last one of all.
+    pub(in crate::store) last_moved: Mutex<Uuid>,
+    /// Whether results were found whose files are in the folder of another service.
+    pub(in crate::store) has_unseen_files: AtomicBool,
     /// Whether those that no job names are removed.
     pub(in crate::store) removes_objects: bool,
     /// Memory for files that are written there, MB.
@@ -79,6 +84,8 @@ impl Local {
             folder: Folder::beside(files),
             objects: None,
             objects_checked: OnceCell::new(),
+            last_moved: Mutex::new(Uuid::nil()),
+            has_unseen_files: AtomicBool::new(false),
             removes_objects: false,
             file_writes: Semaphore::new(FILE_WRITES_MB),
             objects_failed_at: Mutex::default(),

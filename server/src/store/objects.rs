@@ -7,6 +7,7 @@
 use std::collections::HashMap;
 use std::fmt::Display;
 use std::path::Path;
+use std::sync::atomic::Ordering;
 
 use futures_util::{StreamExt, stream};
 use tokio::sync::Semaphore;
@@ -14,10 +15,11 @@ use uuid::Uuid;
 
 use crate::objects::{ObjectFile, Objects, ObjectsError, Source};
 use crate::store::results_to_move::{Moved, Prepared, Stored, StoredFile};
+use crate::store::rows::integer;
 use crate::store::{Content, Store, StoreError};
 
 /// Most jobs whose results are moved at once: they share two transactions. Arbitrary: more than a machine ends within a second.
-const JOBS: i64 = 512;
+const JOBS: usize = 512;
 /// Most of them that are read at once, into memory.
 const READ: usize = 32;
 /// Objects that are written at the same time. Arbitrary: an object takes some 10 to 100 ms.
@@ -89,7 +91,7 @@ impl Store {
         }
         // Objects that cannot be removed keep no others from being written.
         let mut failed = self.remove_unnamed_objects(objects).await;
-        let written = match self.write_objects(objects).await {
+        let written = match self.write_objects(objects, JOBS).await {
             Ok(written) => written,
             Err(error) => return (Vec::new(), Err(error)),
         };
@@ -117,8 +119,9 @@ impl Store {
     pub(in crate::store) async fn write_objects(
         &self,
         objects: &Objects,
+        most: usize,
     ) -> Result<Vec<Result<Option<Moved>, StoreError>>, StoreError> {
-        let jobs = self.movable_jobs(JOBS).await?;
+        let jobs = self.jobs_to_move(most).await?;
         if jobs.is_empty() {
             return Ok(Vec::new());
         }
@@ -140,6 +143,19 @@ impl Store {
         Ok(writes.buffer_unordered(WRITES).collect().await)
     }
 
+    /// The next jobs whose results are to be moved, in a circle: those that cannot be moved keep no others from it.
+    async fn jobs_to_move(&self, most: usize) -> Result<Vec<Uuid>, StoreError> {
+        let mut last = self.local().last_moved.lock().await;
+        let jobs = self.movable_jobs(*last, integer(most)).await?;
+        let may_be_more = jobs.len() >= most;
+        *last = jobs
+            .last()
+            .copied()
+            .filter(|_| may_be_more)
+            .unwrap_or_default();
+        Ok(jobs)
+    }
+
     /// Reads the results of jobs.
     async fn read(&self, jobs: Vec<Uuid>) -> Vec<Result<Stored, StoreError>> {
         match self.results_to_move(&jobs).await {
@@ -149,7 +165,7 @@ impl Store {
     }
 
     async fn remove_unnamed_objects(&self, objects: &Objects) -> Result<(), StoreError> {
-        let keys = self.take_unnamed(JOBS).await?;
+        let keys = self.take_unnamed(integer(JOBS)).await?;
         if keys.is_empty() {
             return Ok(());
         }
@@ -200,7 +216,9 @@ impl Store {
                 self.kept(id, &error).await
             }
             Err(error @ ObjectsError::Damaged { .. }) if self.is_shared() => {
-                tracing::warn!(job = %id, %error, "its files may be in the folder of another service; they stay there");
+                if !self.local().has_unseen_files.swap(true, Ordering::Relaxed) {
+                    tracing::warn!(job = %id, %error, "files of jobs may be in the folder of another service; they stay there");
+                }
                 Ok(None)
             }
             Err(error) => Err(error.into()),

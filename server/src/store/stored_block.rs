@@ -30,6 +30,11 @@ pub(in crate::store) struct StoredObject {
 }
 
 impl StoredObject {
+    /// Its key, and how many bytes of it are the content.
+    pub(in crate::store) fn content(&self) -> (String, u64) {
+        (self.key.clone(), self.content_bytes)
+    }
+
     /// What is behind the content.
     ///
     /// # Errors

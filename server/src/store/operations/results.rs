@@ -51,8 +51,8 @@ operations! {
     /// Whether it is this process that moves results.
     pub(in crate::store) async fn moves_results(&self) -> Result<bool, StoreError>;
 
-    /// Succeeded jobs whose results are not in objects.
-    pub(in crate::store) async fn movable_jobs(&self, most: i64) -> Result<Vec<Uuid>, StoreError>;
+    /// Succeeded jobs whose results are not in objects: the first ones after an id.
+    pub(in crate::store) async fn movable_jobs(&self, after: Uuid, most: i64) -> Result<Vec<Uuid>, StoreError>;
 
     /// Notes the keys of objects that are about to be written.
     pub(in crate::store) async fn note_unnamed(&self, keys: &[String]) -> Result<(), StoreError>;

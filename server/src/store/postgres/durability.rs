@@ -23,11 +23,15 @@ struct Durability {
 }
 
 /// Warns of what the server at `connection` can lose.
-pub(super) async fn warn(connection: &mut PgConnection) -> Result<(), sqlx::Error> {
-    for risk in durability(connection).await?.risks() {
+pub(super) async fn warn(connection: &mut PgConnection) {
+    let risks = match durability(connection).await {
+        Ok(found) => found.risks(),
+        // What a role may not read keeps no service from starting.
+        Err(error) => return tracing::debug!(%error, "settings of the database are unknown"),
+    };
+    for risk in risks {
         tracing::warn!("the database can lose what it has acknowledged: {risk}");
     }
-    Ok(())
 }
 
 async fn durability(connection: &mut PgConnection) -> Result<Durability, sqlx::Error> {
@@ -36,7 +40,7 @@ async fn durability(connection: &mut PgConnection) -> Result<Durability, sqlx::E
              current_setting('synchronous_commit') <> 'off', \
              current_setting('synchronous_commit') NOT IN ('off', 'local') \
                  AND current_setting('synchronous_standby_names') <> '', \
-             EXISTS (SELECT FROM pg_stat_replication)",
+             EXISTS (SELECT FROM pg_stat_replication WHERE application_name NOT IN ('pg_basebackup', 'pg_receivewal'))",
     )
     .fetch_one(connection)
     .await?;
@@ -146,6 +150,6 @@ mod tests {
             .await
             .expect("set");
         let found = durability(&mut connection).await.expect("settings");
-        assert!(!found.is_commit_awaited && !found.is_standby_awaited);
+        assert!(!found.is_commit_awaited, "{found:?}");
     }
 }

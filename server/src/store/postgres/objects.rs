@@ -16,7 +16,8 @@ impl PostgresStore {
     pub(in crate::store) async fn address_of_objects(&self) -> Result<Option<String>, StoreError> {
         let stored = sqlx::query_scalar(
             "SELECT address FROM object_store WHERE EXISTS (SELECT 1 FROM result_blocks WHERE object IS NOT NULL) \
-             OR EXISTS (SELECT 1 FROM checkpoints WHERE object IS NOT NULL) OR EXISTS (SELECT 1 FROM result_files WHERE object IS NOT NULL) OR EXISTS (SELECT 1 FROM unnamed_objects)",
+             OR EXISTS (SELECT 1 FROM checkpoints WHERE object IS NOT NULL) OR EXISTS (SELECT 1 FROM result_files WHERE object IS NOT NULL) \
+             OR is_marked AND EXISTS (SELECT 1 FROM unnamed_objects)",
         );
         Ok(stored.fetch_optional(&self.pool).await?)
     }
@@ -123,10 +124,15 @@ impl PostgresStore {
         Ok(is_mover)
     }
 
-    pub(in crate::store) async fn movable_jobs(&self, most: i64) -> Result<Vec<Uuid>, StoreError> {
+    pub(in crate::store) async fn movable_jobs(
+        &self,
+        after: Uuid,
+        most: i64,
+    ) -> Result<Vec<Uuid>, StoreError> {
         let jobs = sqlx::query_scalar(
-            "SELECT job_id FROM result_blocks WHERE is_movable AND object IS NULL LIMIT $1",
+            "SELECT job_id FROM result_blocks WHERE is_movable AND object IS NULL AND job_id > $1 ORDER BY job_id LIMIT $2",
         )
+        .bind(after)
         .bind(most);
         Ok(jobs.fetch_all(&self.pool).await?)
     }
@@ -176,7 +182,7 @@ impl PostgresStore {
 
 /// What a database has that its copies do not: the server that it was made on, where its role may read that, and its number there. A standby
 /// that is promoted keeps both.
-async fn identity(connection: &mut PgConnection) -> Result<String, StoreError> {
+pub(super) async fn identity(connection: &mut PgConnection) -> Result<String, StoreError> {
     let (number, may_read): (String, bool) = sqlx::query_as(
         "SELECT oid::text, has_function_privilege('pg_catalog.pg_control_system()', 'EXECUTE') \
          FROM pg_database WHERE datname = current_database()",

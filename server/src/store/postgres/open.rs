@@ -35,6 +35,10 @@ const SETTINGS: [(&str, &str); 4] = [
     ("lock_timeout", "10s"),
     ("idle_in_transaction_session_timeout", "30s"),
 ];
+/// The same for a verification, which reads large contents over any line.
+const TIMEOUT_TO_VERIFY: Duration = Duration::from_mins(10);
+const SETTINGS_TO_VERIFY: [(&str, &str); 2] =
+    [("statement_timeout", "10min"), ("lock_timeout", "10s")];
 /// Parameters of an address.
 const PARAMETERS: [&str; 9] = [
     "sslmode",
@@ -68,8 +72,8 @@ impl PostgresStore {
         }
         migrate(&options).await?;
         let options = options.options(SETTINGS);
-        let pool = connect(WRITERS, options.clone()).await?;
-        let readers = connect(READERS, options).await?;
+        let pool = connect(WRITERS, options.clone(), CONNECTION_TIMEOUT).await?;
+        let readers = connect(READERS, options, CONNECTION_TIMEOUT).await?;
         let machine = nix::unistd::gethostname().unwrap_or_default();
         let machine = machine.to_string_lossy();
         let clock = match clock {
@@ -116,7 +120,8 @@ impl PostgresStore {
 pub(super) async fn open_to_verify(url: &str) -> Result<PgPool, BackupError> {
     let options = options(url)?;
     let path = PathBuf::from(options.get_database().unwrap_or_default());
-    let database = connect(READERS, options.options(SETTINGS)).await?;
+    let options = options.options(SETTINGS_TO_VERIFY);
+    let database = connect(READERS, options, TIMEOUT_TO_VERIFY).await?;
     let mut connection = database.acquire().await?;
     let found = applied(&mut connection).await?;
     let known = newest_version();
@@ -132,10 +137,14 @@ pub(super) async fn open_to_verify(url: &str) -> Result<PgPool, BackupError> {
 }
 
 /// Opens a pool of so many connections.
-async fn connect(connections: u32, options: PgConnectOptions) -> Result<PgPool, sqlx::Error> {
+async fn connect(
+    connections: u32,
+    options: PgConnectOptions,
+    timeout: Duration,
+) -> Result<PgPool, sqlx::Error> {
     PgPoolOptions::new()
         .max_connections(connections)
-        .acquire_timeout(CONNECTION_TIMEOUT)
+        .acquire_timeout(timeout)
         .after_connect(|connection, _| Box::pin(refuse_standby(connection)))
         .connect_with(options)
         .await
@@ -202,7 +211,7 @@ async fn migrate(options: &PgConnectOptions) -> Result<(), StoreError> {
     let mut server = PgConnection::connect_with(options).await?;
     refuse_standby(&mut server).await?;
     check_version(&mut server).await?;
-    durability::warn(&mut server).await?;
+    durability::warn(&mut server).await;
     if applied(&mut server).await? != Some(newest_version()) {
         migrator().run(&mut server).await?;
     }

@@ -9,10 +9,12 @@ use uuid::Uuid;
 use crate::objects::Objects;
 use crate::store::folder::Folder;
 use crate::store::postgres::blocks::stored_block;
+use crate::store::postgres::objects::identity;
 use crate::store::postgres::open::open_to_verify;
 use crate::store::rows::{StoredRow, entry};
 use crate::store::stored_block::StoredBlock;
-use crate::store::verification::{CheckpointRow, FileRow, Verification, Verified};
+use crate::store::verification::Verification;
+use crate::store::verified::{CheckpointRow, FileRow, Verified};
 use crate::store::{BackupError, CopySummary, StoreError};
 
 /// Verifies the database at `url`, whose large results may be in the folder `files`.results.
@@ -23,27 +25,15 @@ pub(in crate::store) async fn verify(
 ) -> Result<CopySummary, BackupError> {
     let database = open_to_verify(url).await?;
     let folder = Folder::beside(files);
-    if !folder.exists() && has_files_in_folder(&database).await? {
-        let path = folder.root().to_owned();
-        return Err(StoreError::NoFolder { path }.into());
-    }
-    let verification = Verification {
-        database: &database,
-        folder: &folder,
-        objects,
-    };
+    let verification = Verification::of(&database, &folder, objects).await?;
     let verified = verification.run().await;
     database.close().await;
     verified
 }
 
-async fn has_files_in_folder(database: &PgPool) -> Result<bool, StoreError> {
-    let has_files =
-        sqlx::query_scalar("SELECT EXISTS (SELECT FROM result_files WHERE place IS NOT NULL)");
-    Ok(has_files.fetch_one(database).await?)
-}
-
 impl Verified for PgPool {
+    const HAS_SEVERAL_FOLDERS: bool = true;
+
     async fn jobs(&self) -> Result<Vec<Uuid>, StoreError> {
         let jobs = sqlx::query_scalar("SELECT id FROM jobs ORDER BY id");
         Ok(jobs.fetch_all(self).await?)
@@ -64,11 +54,13 @@ impl Verified for PgPool {
         Ok(())
     }
 
-    async fn files(&self, job: Uuid) -> Result<Vec<FileRow>, StoreError> {
+    async fn files(&self, job: Uuid, name: Option<&str>) -> Result<Vec<FileRow>, StoreError> {
         let rows = sqlx::query(
-            "SELECT name, cycle, media_type, bytes, sha256, damaged, place, object FROM result_files WHERE job_id = $1 ORDER BY name",
+            "SELECT name, cycle, media_type, bytes, sha256, damaged, place, object FROM result_files \
+             WHERE job_id = $1 AND ($2::text IS NULL OR name = $2) ORDER BY name",
         )
         .bind(job)
+        .bind(name)
         .fetch_all(self)
         .await?;
         let file = |row: &PgRow| {
@@ -81,11 +73,13 @@ impl Verified for PgPool {
         rows.iter().map(file).collect()
     }
 
-    async fn content(&self, job: Uuid, name: &str) -> Result<Option<Vec<u8>>, StoreError> {
-        let content =
-            sqlx::query_scalar("SELECT content FROM result_files WHERE job_id = $1 AND name = $2");
-        let content = content.bind(job).bind(name);
-        Ok(content.fetch_optional(self).await?.flatten())
+    async fn content(&self, job: Uuid, file: &FileRow) -> Result<Option<Vec<u8>>, StoreError> {
+        let content = sqlx::query_scalar(
+            "SELECT content FROM result_files WHERE job_id = $1 AND name = $2 AND sha256 = $3",
+        );
+        let content = content.bind(job).bind(&file.entry.name);
+        let content = content.bind(&file.entry.sha256).fetch_optional(self);
+        Ok(content.await?.flatten())
     }
 
     async fn mark_file(
@@ -96,13 +90,14 @@ impl Verified for PgPool {
     ) -> Result<(), StoreError> {
         sqlx::query(
             "UPDATE result_files SET damaged = $1 WHERE job_id = $2 AND name = $3 \
-             AND place IS NOT DISTINCT FROM $4 AND object IS NOT DISTINCT FROM $5",
+             AND place IS NOT DISTINCT FROM $4 AND object IS NOT DISTINCT FROM $5 AND sha256 = $6",
         )
         .bind(how)
         .bind(job)
         .bind(&file.entry.name)
         .bind(&file.place)
         .bind(&file.object)
+        .bind(&file.entry.sha256)
         .execute(self)
         .await?;
         Ok(())
@@ -121,8 +116,16 @@ impl Verified for PgPool {
         }))
     }
 
+    async fn address_of_objects(&self) -> Result<Option<String>, StoreError> {
+        let address = sqlx::query_scalar("SELECT address FROM object_store");
+        Ok(address.fetch_optional(self).await?)
+    }
+
     async fn is_copy(&self) -> Result<bool, StoreError> {
-        let copy = sqlx::query_scalar("SELECT EXISTS (SELECT FROM object_store WHERE NOT removes)");
-        Ok(copy.fetch_one(self).await?)
+        let owner = identity(&mut *self.acquire().await?).await?;
+        let copy = sqlx::query_scalar(
+            "SELECT EXISTS (SELECT FROM object_store WHERE NOT removes OR owner <> $1)",
+        );
+        Ok(copy.bind(owner).fetch_one(self).await?)
     }
 }

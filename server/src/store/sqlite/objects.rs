@@ -21,7 +21,7 @@ impl SqliteStore {
     pub(in crate::store) async fn address_of_objects(&self) -> Result<Option<String>, StoreError> {
         let stored = sqlx::query_scalar(
             "SELECT address FROM object_store WHERE EXISTS (SELECT 1 FROM result_blocks WHERE object IS NOT NULL) \
-             OR EXISTS (SELECT 1 FROM checkpoints WHERE object IS NOT NULL) OR EXISTS (SELECT 1 FROM unnamed_objects)",
+             OR EXISTS (SELECT 1 FROM checkpoints WHERE object IS NOT NULL) OR is_marked AND EXISTS (SELECT 1 FROM unnamed_objects)",
         );
         Ok(stored.fetch_optional(&self.writer).await?)
     }
@@ -91,10 +91,15 @@ impl SqliteStore {
         Ok(true)
     }
 
-    pub(in crate::store) async fn movable_jobs(&self, most: i64) -> Result<Vec<Uuid>, StoreError> {
+    pub(in crate::store) async fn movable_jobs(
+        &self,
+        after: Uuid,
+        most: i64,
+    ) -> Result<Vec<Uuid>, StoreError> {
         let jobs: Vec<Hyphenated> = sqlx::query_scalar(
-            "SELECT job_id FROM result_blocks WHERE is_movable = 1 AND object IS NULL LIMIT ?",
+            "SELECT job_id FROM result_blocks WHERE is_movable = 1 AND object IS NULL AND job_id > ? ORDER BY job_id LIMIT ?",
         )
+        .bind(after.to_string())
         .bind(most)
         .fetch_all(&self.readers)
         .await?;

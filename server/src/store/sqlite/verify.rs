@@ -12,7 +12,8 @@ use crate::store::sqlite::blocks::{stored_block, update_entries};
 use crate::store::sqlite::migrations::newest_version;
 use crate::store::sqlite::open::options;
 use crate::store::stored_block::StoredBlock;
-use crate::store::verification::{CheckpointRow, FileRow, Verification, Verified};
+use crate::store::verification::Verification;
+use crate::store::verified::{CheckpointRow, FileRow, Verified};
 use crate::store::{BackupError, CopySummary, StoreError};
 
 /// Connections: jobs are read beside each other.
@@ -31,17 +32,16 @@ pub(in crate::store) async fn verify(
     let pool = SqlitePoolOptions::new().max_connections(CONNECTIONS);
     let database = pool.connect_with(at(&path)).await?;
     check_integrity(&path, &mut *database.acquire().await?).await?;
-    let verification = Verification {
-        database: &database,
-        folder: &Folder::beside(&path),
-        objects,
-    };
+    let folder = Folder::beside(&path);
+    let verification = Verification::of(&database, &folder, objects).await?;
     let verified = verification.run().await;
     database.close().await;
     verified
 }
 
 impl Verified for SqlitePool {
+    const HAS_SEVERAL_FOLDERS: bool = false;
+
     async fn jobs(&self) -> Result<Vec<Uuid>, StoreError> {
         let jobs: Vec<Hyphenated> = sqlx::query_scalar("SELECT id FROM jobs ORDER BY id")
             .fetch_all(self)
@@ -59,11 +59,13 @@ impl Verified for SqlitePool {
         Ok(update_entries(&mut connection, job, old, new).await?)
     }
 
-    async fn files(&self, job: Uuid) -> Result<Vec<FileRow>, StoreError> {
+    async fn files(&self, job: Uuid, name: Option<&str>) -> Result<Vec<FileRow>, StoreError> {
         let rows = sqlx::query(
-            "SELECT name, cycle, media_type, bytes, sha256, damaged, place FROM result_files WHERE job_id = ? ORDER BY name",
+            "SELECT name, cycle, media_type, bytes, sha256, damaged, place FROM result_files \
+             WHERE job_id = ?1 AND (?2 IS NULL OR name = ?2) ORDER BY name",
         )
         .bind(job.to_string())
+        .bind(name)
         .fetch_all(self)
         .await?;
         let file = |row: &SqliteRow| {
@@ -76,11 +78,13 @@ impl Verified for SqlitePool {
         rows.iter().map(file).collect()
     }
 
-    async fn content(&self, job: Uuid, name: &str) -> Result<Option<Vec<u8>>, StoreError> {
-        let content =
-            sqlx::query_scalar("SELECT content FROM result_files WHERE job_id = ? AND name = ?");
-        let content = content.bind(job.to_string()).bind(name);
-        Ok(content.fetch_optional(self).await?.flatten())
+    async fn content(&self, job: Uuid, file: &FileRow) -> Result<Option<Vec<u8>>, StoreError> {
+        let content = sqlx::query_scalar(
+            "SELECT content FROM result_files WHERE job_id = ? AND name = ? AND sha256 = ?",
+        );
+        let content = content.bind(job.to_string()).bind(&file.entry.name);
+        let content = content.bind(&file.entry.sha256).fetch_optional(self);
+        Ok(content.await?.flatten())
     }
 
     async fn mark_file(
@@ -90,12 +94,13 @@ impl Verified for SqlitePool {
         how: Option<&str>,
     ) -> Result<(), StoreError> {
         sqlx::query(
-            "UPDATE result_files SET damaged = ? WHERE job_id = ? AND name = ? AND place IS ?",
+            "UPDATE result_files SET damaged = ? WHERE job_id = ? AND name = ? AND place IS ? AND sha256 = ?",
         )
         .bind(how)
         .bind(job.to_string())
         .bind(&file.entry.name)
         .bind(&file.place)
+        .bind(&file.entry.sha256)
         .execute(self)
         .await?;
         Ok(())
@@ -112,6 +117,11 @@ impl Verified for SqlitePool {
             state,
             object,
         }))
+    }
+
+    async fn address_of_objects(&self) -> Result<Option<String>, StoreError> {
+        let address = sqlx::query_scalar("SELECT address FROM object_store");
+        Ok(address.fetch_optional(self).await?)
     }
 
     async fn is_copy(&self) -> Result<bool, StoreError> {

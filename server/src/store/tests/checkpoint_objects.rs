@@ -16,6 +16,7 @@ on_both_engines! { WithObjects:
     a_checkpoint_whose_object_may_be_removed_is_in_the_database,
     nothing_is_written_to_a_store_of_objects_that_has_lost_its_mark,
     a_database_with_a_checkpoint_elsewhere_is_not_opened_without_it,
+    an_address_where_nothing_was_written_is_replaced,
 }
 
 /// A checkpoint large enough for an object.
@@ -236,21 +237,10 @@ async fn a_copy_of_a_database_of_a_server_removes_no_objects_and_writes_no_check
     database.store.close().await;
     let WithObjects { place, store } = database;
     drop(store);
-    let (address, options) = place.url.split_once('?').expect("the folder of its socket");
-    let (server, name) = address.rsplit_once('/').expect("a name");
-    let maintenance = format!("{server}/postgres?{options}");
-    let mut connection = PgConnection::connect(&maintenance).await.expect("a server");
-    let copied = format!("CREATE DATABASE {name}_copy TEMPLATE {name}");
-    sqlx::query(sqlx::AssertSqlSafe(copied))
-        .execute(&mut connection)
-        .await
-        .expect("a copy");
-    let copy = Place {
-        url: format!("{server}/{name}_copy?{options}"),
-        folder: place.folder,
-    };
+    let url = place.url.clone();
+    let copy = copied(place).await;
     // The original is opened again, and is none.
-    let original = Store::open_with(&place.url, &copy.files(), Limits::default()).await;
+    let original = Store::open_with(&url, &copy.files(), Limits::default()).await;
     let address = format!("file://{}", copy.folder.path().join("objects").display());
     let objects = || Some(Objects::open(&address).expect("opened"));
     let original = original.expect("a store").with_objects(objects()).await;
@@ -271,4 +261,33 @@ async fn a_copy_of_a_database_of_a_server_removes_no_objects_and_writes_no_check
     assert_eq!(found, Some(large(7)));
     let claim = copy.released(&claim).await;
     assert_eq!(claim.checkpoint, Some(ClaimedCheckpoint::Given(large(9))));
+}
+
+/// A copy of a database of a server that nobody is connected to, with its folder.
+pub(super) async fn copied(Place { url, folder }: Place) -> Place {
+    let (address, options) = url.split_once('?').expect("the folder of its socket");
+    let (server, name) = address.rsplit_once('/').expect("a name");
+    let maintenance = format!("{server}/postgres?{options}");
+    let mut connection = PgConnection::connect(&maintenance).await.expect("a server");
+    let statement = format!("CREATE DATABASE {name}_copy TEMPLATE {name}");
+    sqlx::query(sqlx::AssertSqlSafe(statement))
+        .execute(&mut connection)
+        .await
+        .expect("a copy");
+    Place {
+        url: format!("{server}/{name}_copy?{options}"),
+        folder,
+    }
+}
+
+async fn an_address_where_nothing_was_written_is_replaced(database: WithObjects) {
+    let folder = database.place.folder.path().join("objects");
+    std::fs::remove_dir_all(&folder).expect("removed");
+    std::fs::write(&folder, "").expect("a file in its place");
+    let checkpoint = database.resumed(large(7)).await.checkpoint;
+    assert_eq!(checkpoint, Some(ClaimedCheckpoint::Given(large(7))));
+    database.store.close().await;
+    let WithObjects { place, store } = database;
+    drop(store);
+    opened(&place, Some("other")).await.expect("a store");
 }

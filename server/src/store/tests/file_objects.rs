@@ -2,7 +2,7 @@
 
 use sqlx::{Connection, PgConnection};
 
-use super::objects::WithObjects;
+use super::objects::{WithObjects, opened};
 use super::*;
 use crate::export::documents::VTU;
 use crate::export::files;
@@ -274,4 +274,32 @@ async fn files_of_attempts_that_do_not_run_are_removed_at_the_start(database: Wi
         database.read(ended.id, "a.vtu").await.expect("read"),
         b"fields"
     );
+}
+
+#[tokio::test]
+#[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
+async fn files_on_another_machine_keep_no_other_results_from_being_moved() {
+    let place = Place::postgres();
+    let store = opened(&place, None).await.expect("a store");
+    let store = Arc::new(store);
+    let before = WithObjects { place, store };
+    for _ in 0..3 {
+        before.ended(Transition::Succeed).await;
+    }
+    before.store.close().await;
+    let WithObjects { place, .. } = before;
+    let results = place.folder.path().join("test.db.results");
+    std::fs::remove_dir_all(&results).expect("removed");
+    let database = WithObjects::at(place).await;
+    let id = database.ended(Transition::Succeed).await;
+    let objects = database.store.local().objects.as_ref().expect("given");
+    let mut written = Vec::new();
+    // Two jobs a round, of which three cannot be moved here.
+    for _ in 0..2 {
+        let round = database.store.write_objects(objects, 2).await;
+        for moved in round.expect("the store of objects answers") {
+            written.extend(moved.expect("written").map(|moved| moved.id));
+        }
+    }
+    assert_eq!(written, [id]);
 }

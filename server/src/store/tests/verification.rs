@@ -4,8 +4,8 @@ use std::path::Path;
 
 use sqlx::{Connection, PgConnection};
 
-use super::checkpoint_objects::large;
-use super::objects::WithObjects;
+use super::checkpoint_objects::{copied, large};
+use super::objects::{WithObjects, files_below, opened};
 use super::*;
 use crate::objects::Objects;
 
@@ -13,6 +13,9 @@ on_both_engines! { WithObjects:
     a_missing_or_damaged_object_is_found,
     a_missing_or_damaged_checkpoint_is_found,
     a_missing_or_damaged_file_of_a_failed_job_is_found,
+    a_short_object_is_damaged,
+    what_cannot_be_read_is_not_called_damaged,
+    another_store_of_objects_is_refused,
     all_jobs_are_verified,
 }
 
@@ -21,13 +24,28 @@ impl WithObjects {
         verify(&self.place.url, &self.place.files(), objects).await
     }
 
-    /// What is damaged.
+    /// What is found with its store of objects.
+    async fn found(&self) -> CopySummary {
+        let verified = self.verified(Some(&self.objects_at("objects"))).await;
+        verified.expect("verified")
+    }
+
+    /// What is damaged; all is read.
     async fn damaged(&self) -> Vec<String> {
-        let address = self.place.folder.path().join("objects");
-        let objects = Objects::open(&format!("file://{}", address.display()));
-        let objects = objects.expect("opened");
-        let verified = self.verified(Some(&objects)).await;
-        verified.expect("verified").damaged
+        let found = self.found().await;
+        assert_eq!(found.unread, Vec::<String>::new());
+        found.damaged
+    }
+
+    fn objects_at(&self, folder: &str) -> Objects {
+        let folder = self.place.folder.path().join(folder);
+        Objects::open(&format!("file://{}", folder.display())).expect("opened")
+    }
+
+    /// Whether the first file of a job is marked as damaged.
+    async fn is_marked(&self, id: Uuid) -> bool {
+        let manifest = self.store.manifest(id).await.expect("the store");
+        manifest[0].damaged.is_some()
     }
 }
 
@@ -38,10 +56,16 @@ fn damage(path: &Path) {
     std::fs::write(path, &bytes).expect("written");
 }
 
-/// Checks that one thing is damaged, and how.
-fn assert_one(damaged: &[String], begins: &str, contains: &str) {
-    let [one] = damaged else {
-        panic!("{damaged:?}");
+/// Leaves some bytes of a file.
+fn cut(path: &Path, length: u64) {
+    let file = std::fs::OpenOptions::new().write(true).open(path);
+    file.expect("opened").set_len(length).expect("cut");
+}
+
+/// Checks that one thing is said, and of what.
+fn assert_one(said: &[String], begins: &str, contains: &str) {
+    let [one] = said else {
+        panic!("{said:?}");
     };
     assert!(one.starts_with(begins) && one.contains(contains), "{one}");
 }
@@ -55,16 +79,10 @@ async fn a_missing_or_damaged_object_is_found(database: WithObjects) {
     let object = &database.objects()[0];
     damage(object);
     assert_one(&database.damaged().await, "a.vtu of job", "SHA-256");
-    let manifest = database.store.manifest(id).await.expect("the store");
-    assert!(manifest[0].damaged.is_some(), "{manifest:?}");
+    assert!(database.is_marked(id).await);
     damage(object);
     assert_eq!(database.damaged().await, Vec::<String>::new());
-    let manifest = database.store.manifest(id).await.expect("the store");
-    assert!(manifest[0].damaged.is_none(), "{manifest:?}");
-    let length = std::fs::metadata(object).expect("a file").len();
-    let file = std::fs::OpenOptions::new().write(true).open(object);
-    file.expect("opened").set_len(length - 1).expect("cut");
-    assert_one(&database.damaged().await, "a.vtu of job", "bytes");
+    assert!(!database.is_marked(id).await);
     std::fs::remove_file(object).expect("removed");
     assert_one(
         &database.damaged().await,
@@ -94,10 +112,66 @@ async fn a_missing_or_damaged_file_of_a_failed_job_is_found(database: WithObject
     let file = database.files().pop().expect("a file");
     damage(&file);
     assert_one(&database.damaged().await, "a.vtu of job", "SHA-256");
-    let manifest = database.store.manifest(id).await.expect("the store");
-    assert!(manifest[0].damaged.is_some(), "{manifest:?}");
+    assert!(database.is_marked(id).await);
+    damage(&file);
+    assert_eq!(database.damaged().await, Vec::<String>::new());
+    assert!(!database.is_marked(id).await);
+    cut(&file, 2);
+    assert_one(&database.damaged().await, "a.vtu of job", "2 bytes");
+    cut(&file, 0);
+    assert_one(&database.damaged().await, "a.vtu of job", "0 bytes");
     std::fs::remove_file(&file).expect("removed");
     assert_one(&database.damaged().await, "a.vtu of job", "does not exist");
+    assert!(database.is_marked(id).await);
+}
+
+async fn a_short_object_is_damaged(database: WithObjects) {
+    let id = database.ended(Transition::Succeed).await;
+    let whole = database.ended(Transition::Succeed).await;
+    database.moved().await;
+    let of_job = format!("jobs/{id}");
+    let objects = database.objects();
+    let is_of_job = |object: &&PathBuf| object.display().to_string().contains(&of_job);
+    let object = objects.iter().find(is_of_job).expect("an object");
+    let length = std::fs::metadata(object).expect("a file").len();
+    // Its last file is the shortest part, and its content the first.
+    for (left, of) in [(length - 1, "a.vtu of job"), (0, "results of job")] {
+        cut(object, left);
+        assert_one(&database.damaged().await, of, "bytes");
+    }
+    assert_eq!(database.read(whole, "b.csv").await.expect("read"), b"cycle");
+}
+
+async fn what_cannot_be_read_is_not_called_damaged(database: WithObjects) {
+    let id = database.ended(Transition::Succeed).await;
+    database.moved().await;
+    let objects = database.objects_at("objects");
+    let folder = database.place.folder.path().join("objects");
+    let away = folder.with_file_name("away");
+    std::fs::rename(&folder, &away).expect("moved");
+    std::fs::write(&folder, "").expect("a file in its place");
+    let found = database.verified(Some(&objects)).await.expect("verified");
+    assert_eq!((found.jobs, found.damaged.len()), (1, 0));
+    assert_one(&found.unread, "results of job", "objects");
+    std::fs::remove_file(&folder).expect("removed");
+    std::fs::rename(&away, &folder).expect("moved back");
+    assert!(!database.is_marked(id).await);
+    assert_eq!(database.damaged().await, Vec::<String>::new());
+}
+
+async fn another_store_of_objects_is_refused(database: WithObjects) {
+    let id = database.ended(Transition::Fail).await;
+    let other = database.objects_at("other");
+    other.mark().await.expect("marked");
+    let refused = database.verified(Some(&other)).await;
+    assert!(
+        matches!(
+            refused,
+            Err(BackupError::Store(StoreError::OtherObjects { .. }))
+        ),
+        "{refused:?}"
+    );
+    assert!(!database.is_marked(id).await);
 }
 
 async fn all_jobs_are_verified(database: WithObjects) {
@@ -112,9 +186,7 @@ async fn all_jobs_are_verified(database: WithObjects) {
     database.moved().await;
     let objects = database.objects();
     assert_eq!(objects.len(), 20);
-    let address = database.place.folder.path().join("objects");
-    let opened = Objects::open(&format!("file://{}", address.display())).expect("opened");
-    let all = database.verified(Some(&opened)).await.expect("verified");
+    let all = database.found().await;
     // Of a job whose results were moved, its events are verified, too.
     assert_eq!((all.jobs, all.files), (40, 100), "{all:?}");
     for object in &objects {
@@ -127,20 +199,52 @@ async fn all_jobs_are_verified(database: WithObjects) {
 #[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
 async fn files_in_the_folder_of_another_machine_are_not_called_damaged() {
     let place = Place::postgres();
-    let store = super::objects::opened(&place, None).await.expect("a store");
-    let store = Arc::new(store);
+    let store = Arc::new(opened(&place, None).await.expect("a store"));
     let database = WithObjects { place, store };
-    database.ended(Transition::Fail).await;
+    let id = database.ended(Transition::Fail).await;
     let verified = database.verified(None).await.expect("verified");
     assert_eq!((verified.files, verified.damaged.len()), (2, 0));
-    let elsewhere = verify(&database.place.url, Path::new("elsewhere"), None).await;
-    assert!(
-        matches!(
-            elsewhere,
-            Err(BackupError::Store(StoreError::NoFolder { .. }))
-        ),
-        "{elsewhere:?}"
-    );
+    // A folder of the same name that has files of other jobs.
+    let elsewhere = tempfile::tempdir().expect("a folder");
+    std::fs::create_dir(elsewhere.path().join("test.db.results")).expect("made");
+    let files = elsewhere.path().join("test.db");
+    let verified = verify(&database.place.url, &files, None).await;
+    let verified = verified.expect("verified");
+    assert_one(&verified.unread, "a.vtu of job", "is not here");
+    assert_eq!((verified.files, verified.damaged.len()), (1, 0));
+    assert!(!database.is_marked(id).await);
+    let file = database.place.folder.path().join("test.db.results");
+    damage(&files_below(&file)[0]);
+    let verified = database.verified(None).await.expect("verified");
+    assert_one(&verified.damaged, "a.vtu of job", "SHA-256");
+    assert!(database.is_marked(id).await);
+}
+
+/// Files of its unfinished jobs are those of its original, which may have removed them.
+#[tokio::test]
+#[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
+async fn objects_that_the_original_of_a_copy_has_removed_are_not_called_damaged() {
+    let database = WithObjects::at(Place::postgres()).await;
+    database.ended(Transition::Fail).await;
+    database.resumed(large(7)).await;
+    database.store.close().await;
+    let WithObjects { place, store } = database;
+    drop(store);
+    let place = copied(place).await;
+    // No service of the copy has started so far.
+    let url = place.url.clone();
+    let objects = place.folder.path().join("objects");
+    let removed: Vec<_> = ["files", "checkpoints"]
+        .map(|of| files_below(&objects.join(of)))
+        .concat();
+    assert_eq!(removed.len(), 2);
+    for object in removed {
+        std::fs::remove_file(object).expect("removed");
+    }
+    let objects = Objects::open(&format!("file://{}", objects.display()));
+    let verified = verify(&url, &place.files(), objects.as_ref().ok()).await;
+    let verified = verified.expect("verified");
+    assert_eq!((verified.damaged, verified.unread), (vec![], vec![]));
 }
 
 #[tokio::test]
@@ -150,7 +254,7 @@ async fn a_database_of_another_version_is_not_verified() {
     let verified = async || verify(&place.url, &place.files(), None).await;
     let new = verified().await;
     assert!(matches!(new, Err(BackupError::NoDatabase(_))), "{new:?}");
-    let store = super::objects::opened(&place, None).await.expect("a store");
+    let store = opened(&place, None).await.expect("a store");
     store.close().await;
     assert_eq!(verified().await.expect("verified").jobs, 0);
     let mut connection = PgConnection::connect(&place.url).await.expect("a server");

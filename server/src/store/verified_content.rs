@@ -1,0 +1,83 @@
+//! Contents that are verified: what was found of one, in an object or elsewhere.
+
+use std::ops::Range;
+
+use api::results::ResultFile;
+use futures_util::StreamExt;
+
+use crate::objects::{ObjectPart, Objects, ObjectsError};
+use crate::store::IntegrityError;
+use crate::store::integrity::Checksum;
+
+/// What was found of a content.
+#[derive(Debug)]
+pub(in crate::store) enum Found {
+    /// It was compared with its checksum; how it is damaged.
+    Compared(Option<String>),
+    /// Its object is missing.
+    Missing(String),
+    /// It was deleted or replaced meanwhile.
+    Gone,
+    /// It cannot be read at present, or not here.
+    Unread(String),
+}
+
+impl From<Result<(), IntegrityError>> for Found {
+    fn from(checked: Result<(), IntegrityError>) -> Self {
+        match checked {
+            Ok(()) => Self::Compared(None),
+            Err(cause) if cause.is_damage() => Self::Compared(Some(cause.to_string())),
+            Err(cause) => Self::Unread(cause.to_string()),
+        }
+    }
+}
+
+/// Compares a range of an object with an entry.
+pub(in crate::store) async fn object(
+    objects: &Objects,
+    key: &str,
+    range: Range<u64>,
+    entry: &ResultFile,
+) -> Found {
+    let end = range.end;
+    match checksum(&ObjectPart::new(objects, key, range)).await {
+        Ok(found) => found.compare(entry).into(),
+        Err(cause) => failed(objects, key, end, cause).await,
+    }
+}
+
+/// What the error of a request for the first bytes of an object says: a short object is damaged, whatever its store calls that.
+pub(in crate::store) async fn failed(
+    objects: &Objects,
+    key: &str,
+    bytes: u64,
+    cause: ObjectsError,
+) -> Found {
+    if let ObjectsError::Missing(_) = cause {
+        return Found::Missing(cause.to_string());
+    }
+    match objects.length(key).await {
+        Ok(length) if length < bytes => Found::Compared(Some(format!(
+            "the object {key} has {length} bytes, at least {bytes} are named"
+        ))),
+        _ => Found::Unread(cause.to_string()),
+    }
+}
+
+/// Reads or compares much without keeping others waiting.
+pub(in crate::store) async fn in_background(
+    check: impl FnOnce() -> Result<(), IntegrityError> + Send + 'static,
+) -> Result<(), IntegrityError> {
+    let checked = tokio::task::spawn_blocking(check).await;
+    checked.unwrap_or_else(|cause| Err(std::io::Error::other(cause).into()))
+}
+
+/// The checksum of a part of an object.
+async fn checksum(part: &ObjectPart) -> Result<Checksum, ObjectsError> {
+    let mut checksum = Checksum::default();
+    let mut chunks = part.stream(0..part.length()).await?;
+    while let Some(chunk) = chunks.next().await {
+        checksum.update(&chunk?);
+    }
+    Ok(checksum)
+}
