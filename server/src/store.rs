@@ -88,6 +88,7 @@ mod updates;
 mod verification;
 mod verified;
 mod verified_content;
+mod verify;
 mod workers;
 
 pub use backup::{BackupError, CopySummary};
@@ -108,10 +109,11 @@ pub use leases::{
     Reclaimed, RequestNumber, Write, WriteKind,
 };
 pub use limits::Limits;
-pub use operations::{Store, shown_address, verify};
+pub use operations::{Store, shown_address};
 pub use results::{Chunks, Content, ContentError, NewContent, NewFile, SnapshotPart, StoredEvent};
 pub use sqlite::OWNER_HEARTBEAT;
 pub use sqlite::backup::{backup, restore};
+pub use verify::verify;
 pub use workers::{WorkerContact, WorkerOffer};
 
 #[cfg(test)]

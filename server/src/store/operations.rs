@@ -13,13 +13,12 @@ use uuid::Uuid;
 
 use crate::clock::Clock;
 use crate::metrics::Metrics;
-use crate::objects::Objects;
 use crate::store::local::Local;
-use crate::store::postgres::{self, PostgresStore};
-use crate::store::sqlite::{self, SqliteStore};
+use crate::store::postgres::PostgresStore;
+use crate::store::sqlite::SqliteStore;
 use crate::store::{
-    AllChanges, BackupError, BatchDetail, BatchPart, Changes, CopySummary, DataDisk, Deleted,
-    Lease, Limits, SnapshotPart, StoreError, StoredBatch,
+    AllChanges, BatchDetail, BatchPart, Changes, DataDisk, Deleted, Lease, Limits, SnapshotPart,
+    StoreError, StoredBatch,
 };
 
 /// Jobs, batches, events and results, durable.
@@ -219,24 +218,6 @@ pub fn shown_address(url: &str) -> String {
             Url::parse(url).map_or_else(|_| format!("{scheme}:.."), shown)
         }
         _ => url.to_owned(),
-    }
-}
-
-/// Reads the database at `url`, which may be in use, and all results, and compares every checksum. Marks in the manifests which files are damaged,
-/// and which no longer are. Large results of a PostgreSQL database that are no objects are in the folder `files`.results. `objects` is the store that
-/// results were moved to.
-///
-/// # Errors
-/// [`BackupError`] if the database itself is damaged or cannot be read, or if results are in a store of objects that is not given.
-pub async fn verify(
-    url: &str,
-    files: &Path,
-    objects: Option<&Objects>,
-) -> Result<CopySummary, BackupError> {
-    if is_postgres(url) {
-        Box::pin(postgres::verify::verify(url, files, objects)).await
-    } else {
-        Box::pin(sqlite::verify::verify(url, objects)).await
     }
 }
 
