@@ -10,11 +10,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use object_store::aws::AmazonS3Builder;
+use object_store::aws::{AmazonS3Builder, AmazonS3ConfigKey};
 use object_store::local::LocalFileSystem;
 use object_store::path::Path;
 use object_store::prefix::PrefixStore;
-use object_store::{ObjectStore, ObjectStoreExt, RetryConfig};
+use object_store::{ClientConfigKey, ObjectStore, ObjectStoreExt, RetryConfig};
 
 pub use files::{ObjectFile, Source};
 pub use part::ObjectPart;
@@ -22,6 +22,10 @@ pub use part::ObjectPart;
 /// Retries of a request, and the longest time for them: the caller tries again later, too.
 const RETRIES: usize = 3;
 const RETRY_TIMEOUT: Duration = Duration::from_secs(10);
+/// Longest time of a request: an object is read as slowly as a user's line takes it. The default of the crate, 30 s, is for all of it.
+const LONGEST: &str = "1day";
+/// Longest time without any bytes.
+const READ_TIMEOUT: &str = "30s";
 /// Key of the object that marks a store: one without it is another one, or a folder that is not mounted.
 const MARK: &str = "fretwear-objects";
 
@@ -111,7 +115,14 @@ impl Objects {
                 ..RetryConfig::default()
             };
             let bucket = AmazonS3Builder::from_env().with_bucket_name(bucket);
-            let bucket = bucket.with_retry(retry).build();
+            let bucket = bucket
+                .with_retry(retry)
+                .with_config(AmazonS3ConfigKey::Client(ClientConfigKey::Timeout), LONGEST)
+                .with_config(
+                    AmazonS3ConfigKey::Client(ClientConfigKey::ReadTimeout),
+                    READ_TIMEOUT,
+                )
+                .build();
             let bucket = bucket.map_err(|cause| failed(cause.into()))?;
             Arc::new(PrefixStore::new(bucket, prefix))
         } else {

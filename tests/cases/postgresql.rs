@@ -2,7 +2,7 @@
 //! do, and one that ends loses no job.
 
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use futures_util::stream::BoxStream;
 use futures_util::{StreamExt, TryStreamExt};
@@ -266,11 +266,13 @@ async fn a_service_warns_where_a_failover_would_lose_commits() {
     assert!(!warns(), "every commit is confirmed by the standby");
     primary.answer("ALTER SYSTEM RESET synchronous_standby_names");
     primary.answer("SELECT pg_reload_conf()");
+    let began = Instant::now();
     while !primary
         .answer("SHOW synchronous_standby_names")
         .trim()
         .is_empty()
     {
+        assert!(began.elapsed() < PATIENCE, "the setting is read");
         tokio::time::sleep(Duration::from_millis(50)).await;
     }
     assert!(warns(), "the standby confirms none");

@@ -23,7 +23,7 @@ pub(super) fn run_verify(database: &str, files: &Path, objects: Option<&str>) ->
     let objects = objects.map(Objects::open).transpose().map_err(failed)?;
     let verified = block_on(verify(database, files, objects.as_ref()))?;
     let damaged = report(verified, "verified")?;
-    refuse(damaged, "marked in their manifests")
+    refuse(damaged, "files among them are marked in their manifests")
 }
 
 /// Writes what was done, and each damaged file; returns their number.
@@ -37,22 +37,30 @@ fn report(
         file_bytes,
         damaged,
         unread,
+        elsewhere,
+        has_ended_early,
     } = done.map_err(failed)?;
     for file in &damaged {
         write_out(format_args!("damaged: {file}"))?;
     }
-    for file in &unread {
-        write_out(format_args!("not read: {file}"))?;
+    for file in unread.iter().chain(&elsewhere) {
+        write_out(format_args!("not verified: {file}"))?;
     }
     write_out(format_args!(
         "{jobs} jobs and {files} files of {file_bytes} bytes {what}"
     ))?;
-    if unread.is_empty() {
+    if unread.is_empty() && elsewhere.is_empty() {
         return Ok(damaged.len());
     }
+    let early = if has_ended_early {
+        ", and the jobs after these were not tried"
+    } else {
+        ""
+    };
     Err(failed(format_args!(
-        "{} results could not be read, so that not all are verified; {} damaged ones were found",
+        "{} results could not be read and {} are not here{early}; {} damaged ones were found",
         unread.len(),
+        elsewhere.len(),
         damaged.len()
     )))
 }

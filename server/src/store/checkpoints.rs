@@ -49,18 +49,25 @@ impl Store {
         let Some(objects) = &self.local().objects else {
             return Ok(None);
         };
-        if self.check_circuit(objects).await.is_err() {
-            return Ok(None);
+        let unusable = |error: &StoreError| {
+            matches!(
+                error,
+                StoreError::Objects(_) | StoreError::OtherObjects { .. }
+            )
+        };
+        match self.check_circuit(objects, LONGEST).await {
+            Err(error) if unusable(&error) => return Ok(None),
+            checked => checked?,
         }
         let key = format!("checkpoints/{}/{}", lease.job, Uuid::now_v7());
-        let put = async {
+        let put = Box::pin(objects.put_whole(&key, checkpoint.state.clone()));
+        let written = async {
             self.note_object(&key).await?;
-            let put = objects.put_whole(&key, checkpoint.state.clone());
-            Ok(put.await?)
+            self.write_in_time(objects, LONGEST, put).await
         };
-        match self.write_in_time(objects, LONGEST, put).await {
+        match written.await {
             Ok(()) => Ok(Some(key)),
-            Err(StoreError::Objects(_) | StoreError::OtherObjects { .. }) => Ok(None),
+            Err(error) if unusable(&error) => Ok(None),
             Err(error) => Err(error),
         }
     }

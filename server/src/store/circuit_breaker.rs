@@ -12,24 +12,26 @@ use crate::store::{Store, StoreError};
 const PAUSE: Duration = Duration::from_mins(1);
 
 impl Store {
-    /// Refuses a write if one has failed a short time ago.
+    /// Refuses a write if one has failed a short time ago, or if the store is not that of this database, which is found out within a time.
     ///
     /// # Errors
-    /// [`StoreError::Objects`] then.
+    /// [`StoreError`] then.
     pub(in crate::store) async fn check_circuit(
         &self,
         objects: &Objects,
+        longest: Duration,
     ) -> Result<(), StoreError> {
         let failed_at = *self.local().objects_failed_at.lock().await;
         if failed_at.is_none_or(|at| at.elapsed() >= PAUSE) {
-            return Ok(());
+            let check = Box::pin(self.check_mark(objects));
+            return self.within(objects, longest, check).await;
         }
         let cause = format!("it has failed, and is tried again after {PAUSE:?}");
         Err(objects.failed(cause).into())
     }
 
-    /// Does a write to the store of this database, unless that takes too long, which opens the circuit as a failure of the store does. An error of
-    /// the database, or a damaged file, says nothing about it.
+    /// Does a write, unless that takes too long, which opens the circuit as a failure of the store does. A damaged file says nothing
+    /// about it.
     ///
     /// # Errors
     /// [`StoreError`] if it fails.
@@ -37,18 +39,24 @@ impl Store {
         &self,
         objects: &Objects,
         longest: Duration,
-        write: impl Future<Output = Result<(), StoreError>>,
+        write: impl Future<Output = Result<(), ObjectsError>>,
     ) -> Result<(), StoreError> {
-        let marked_write = async {
-            self.check_mark(objects).await?;
-            write.await
-        };
-        let written = timeout(longest, marked_write).await;
-        let written = written.unwrap_or_else(|_| {
+        let write = async { Ok(write.await?) };
+        self.within(objects, longest, write).await
+    }
+
+    async fn within(
+        &self,
+        objects: &Objects,
+        longest: Duration,
+        request: impl Future<Output = Result<(), StoreError>>,
+    ) -> Result<(), StoreError> {
+        let answer = timeout(longest, request).await;
+        let answer = answer.unwrap_or_else(|_| {
             let cause = format!("no answer within {longest:?}");
             Err(objects.failed(cause).into())
         });
-        if let Err(error) = &written
+        if let Err(error) = &answer
             && is_of_objects(error)
         {
             tracing::warn!(
@@ -57,7 +65,7 @@ impl Store {
             );
             *self.local().objects_failed_at.lock().await = Some(Instant::now());
         }
-        written
+        answer
     }
 }
 

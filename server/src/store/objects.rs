@@ -64,7 +64,13 @@ impl Store {
                     objects.get(&key, 0..1).await?;
                 }
                 objects.mark().await?;
-                return self.note_mark_of_objects(address).await;
+                if self.note_mark_of_objects(address).await? {
+                    return Ok(());
+                }
+                return Err(StoreError::OtherObjects {
+                    stored: self.address_of_objects().await?.unwrap_or_default(),
+                    given: address.to_owned(),
+                });
             }
             if objects.is_marked().await? {
                 return Ok(());

@@ -20,7 +20,7 @@ const AT_ONCE: usize = 16;
 /// Length from which a content is large, bytes, and how many of them are read at the same time.
 const LARGE: u64 = 4 << 20;
 const LARGE_AT_ONCE: usize = 2;
-/// Results that cannot be read after which the others are not tried.
+/// Results that cannot be read, in successive jobs, after which the others are not tried.
 const MOST_UNREAD: usize = 100;
 
 /// What the results of a database are compared in.
@@ -70,10 +70,17 @@ impl<'a, D: Verified> Verification<'a, D> {
         let jobs = self.database.jobs().await?;
         let verified = stream::iter(jobs).map(|job| self.job(job));
         let mut verified = verified.buffered(AT_ONCE);
-        let mut all = CopySummary::default();
+        let (mut all, mut unread) = (CopySummary::default(), 0);
         while let Some(job) = verified.next().await {
-            all.add(job?);
-            if all.unread.len() > MOST_UNREAD {
+            let job = job?;
+            unread = match job.unread.len() {
+                0 if job.files == 0 => unread,
+                0 => 0,
+                more => unread + more,
+            };
+            all.add(job);
+            if unread > MOST_UNREAD {
+                all.has_ended_early = true;
                 break;
             }
         }
@@ -113,6 +120,10 @@ impl<'a, D: Verified> Verification<'a, D> {
                 verified.unread.push(format!("{what}: {cause}"));
                 return Ok(());
             }
+            Found::Elsewhere(cause) => {
+                verified.elsewhere.push(format!("{what}: {cause}"));
+                return Ok(());
+            }
         };
         if found != entry.damaged {
             let _mark = self.marks.lock().await;
@@ -131,7 +142,9 @@ impl<'a, D: Verified> Verification<'a, D> {
             let objects = self.objects.ok_or(StoreError::NoObjects)?;
             return Ok(match object(objects, key, 0..entry.bytes, entry).await {
                 // The original has moved or removed it.
-                Found::Missing(_) if self.is_copy => Found::Gone,
+                Found::Missing(_) if self.is_copy => {
+                    Found::Elsewhere("the original of this copy may have removed it".to_owned())
+                }
                 found => found,
             });
         }
@@ -142,10 +155,10 @@ impl<'a, D: Verified> Verification<'a, D> {
             let has_folder = if D::HAS_SEVERAL_FOLDERS {
                 path.parent().is_some_and(std::path::Path::is_dir)
             } else {
-                true
+                self.folder.exists()
             };
             if !has_folder {
-                return Ok(Found::Unread(format!("{} is not here", path.display())));
+                return Ok(Found::Elsewhere(format!("{} is not here", path.display())));
             }
             in_background(move || integrity::check_file(&entry, &path)).await
         } else {
@@ -181,32 +194,40 @@ impl<'a, D: Verified> Verification<'a, D> {
                         verified.damaged.push(format!("{what}: {how}"));
                     }
                     Found::Unread(cause) => verified.unread.push(format!("{what}: {cause}")),
-                    Found::Compared(None) | Found::Gone => {}
+                    Found::Compared(None) | Found::Gone | Found::Elsewhere(_) => {}
                 }
                 return Ok(());
             }
         };
         let block = Block::decode(&entries, &[]);
         let mut marked = block.map_err(|cause| unreadable(job, &cause))?;
-        for (entry, how) in checked {
+        for (entry, found) in checked {
+            let what = format!("{} of job {job}", entry.name);
+            let how = match found {
+                Found::Compared(how) => how,
+                Found::Unread(cause) => {
+                    verified.unread.push(format!("{what}: {cause}"));
+                    continue;
+                }
+                Found::Missing(_) | Found::Gone | Found::Elsewhere(_) => continue,
+            };
             let new = marked.mark(&entry.name, how.as_deref());
             if let Some(new) = new.map_err(StoreError::from)? {
                 let _mark = self.marks.lock().await;
                 self.database.mark_block(job, &entries, &new).await?;
                 entries = new;
             }
-            let what = format!("{} of job {job}", entry.name);
             verified.count(&entry, &what, how);
         }
         Ok(())
     }
 
-    /// The documents of a block and the files behind it, and how they are damaged; or what was found of all.
+    /// The documents of a block and the files behind it, and what was found of each; or what was found of all.
     async fn checked(
         &self,
         stored: StoredBlock,
         job: Uuid,
-    ) -> Result<Result<Vec<(ResultFile, Option<String>)>, Found>, StoreError> {
+    ) -> Result<Result<Vec<(ResultFile, Found)>, Found>, StoreError> {
         let content = stored.object.as_ref().map(StoredObject::content);
         let (key, behind) = content.unwrap_or_default();
         let is_object = stored.object.is_some();
@@ -223,8 +244,8 @@ impl<'a, D: Verified> Verification<'a, D> {
         };
         let documents = block.all();
         let compared = |(entry, bytes): (&ResultFile, _)| {
-            let how = integrity::check_bytes(entry, bytes).err();
-            (entry.clone(), how.map(|how| how.to_string()))
+            let found = integrity::check_bytes(entry, bytes).into();
+            (entry.clone(), found)
         };
         let mut checked: Vec<_> = documents.map(compared).collect();
         if !is_object {
@@ -235,8 +256,8 @@ impl<'a, D: Verified> Verification<'a, D> {
             let _large = self.large_one(entry.bytes).await;
             let range = behind + range.start..behind + range.end;
             match object(objects, &key, range, entry).await {
-                Found::Compared(how) => checked.push((entry.clone(), how)),
-                found => return Ok(Err(found)),
+                found @ Found::Missing(_) => return Ok(Err(found)),
+                found => checked.push((entry.clone(), found)),
             }
         }
         Ok(Ok(checked))
@@ -262,7 +283,7 @@ impl<'a, D: Verified> Verification<'a, D> {
                     // It may have been replaced meanwhile, by the original if this is a copy.
                     let now = self.database.checkpoint(job).await?;
                     let is_named = now.is_some_and(|now| now.object == row.object);
-                    if !is_missing {
+                    if is_named && !is_missing {
                         verified.unread.push(format!("{what}: {cause}"));
                     } else if is_named && !self.is_copy {
                         verified.damaged.push(format!("{what}: {cause}"));
@@ -296,6 +317,7 @@ impl CopySummary {
         self.file_bytes += other.file_bytes;
         self.damaged.extend(other.damaged);
         self.unread.extend(other.unread);
+        self.elsewhere.extend(other.elsewhere);
     }
 
     /// Counts a file that was compared.

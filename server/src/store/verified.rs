@@ -25,6 +25,16 @@ pub(in crate::store) struct CheckpointRow {
     pub(in crate::store) object: Option<String>,
 }
 
+impl From<(Vec<u8>, Vec<u8>, Option<String>)> for CheckpointRow {
+    fn from((sha256, state, object): (Vec<u8>, Vec<u8>, Option<String>)) -> Self {
+        Self {
+            sha256,
+            state,
+            object,
+        }
+    }
+}
+
 /// A database whose results are verified, which may be in use.
 pub(in crate::store) trait Verified {
     /// Whether machines with other folders serve it.

@@ -18,8 +18,10 @@ pub(in crate::store) enum Found {
     Missing(String),
     /// It was deleted or replaced meanwhile.
     Gone,
-    /// It cannot be read at present, or not here.
+    /// It cannot be read at present.
     Unread(String),
+    /// It is not here.
+    Elsewhere(String),
 }
 
 impl From<Result<(), IntegrityError>> for Found {

@@ -11,7 +11,7 @@ use crate::store::{BackupError, CopySummary, postgres, sqlite};
 /// results were moved to.
 ///
 /// # Errors
-/// [`BackupError`] if the database itself is damaged or cannot be read, or if results are in a store of objects that is not given.
+/// [`BackupError`] if the database cannot be read, if a SQLite file is damaged, or if results are in a store of objects that is not given.
 pub async fn verify(
     url: &str,
     files: &Path,

@@ -42,8 +42,8 @@ operations! {
     /// Whether the store of objects at an address has got its mark.
     pub(in crate::store) async fn are_objects_marked(&self, address: &str) -> Result<bool, StoreError>;
 
-    /// Notes that it has.
-    pub(in crate::store) async fn note_mark_of_objects(&self, address: &str) -> Result<(), StoreError>;
+    /// Notes that it has; false if the database has another address meanwhile.
+    pub(in crate::store) async fn note_mark_of_objects(&self, address: &str) -> Result<bool, StoreError>;
 
     /// Key of an object with the results of a job.
     pub(in crate::store) async fn any_object(&self) -> Result<Option<String>, StoreError>;

@@ -77,14 +77,12 @@ impl PostgresStore {
     pub(in crate::store) async fn note_mark_of_objects(
         &self,
         address: &str,
-    ) -> Result<(), StoreError> {
-        sqlx::query(
-            "UPDATE object_store SET is_marked = true WHERE NOT is_marked AND address = $1",
-        )
-        .bind(address)
-        .execute(&self.pool)
-        .await?;
-        Ok(())
+    ) -> Result<bool, StoreError> {
+        let noted = sqlx::query("UPDATE object_store SET is_marked = true WHERE address = $1")
+            .bind(address)
+            .execute(&self.pool)
+            .await?;
+        Ok(noted.rows_affected() > 0)
     }
 
     pub(in crate::store) async fn any_object(&self) -> Result<Option<String>, StoreError> {

@@ -121,18 +121,18 @@ pub(super) async fn open_to_verify(url: &str) -> Result<PgPool, BackupError> {
     let options = options(url)?;
     let path = PathBuf::from(options.get_database().unwrap_or_default());
     let options = options.options(SETTINGS_TO_VERIFY);
-    let database = connect(READERS, options, TIMEOUT_TO_VERIFY).await?;
-    let mut connection = database.acquire().await?;
-    let found = applied(&mut connection).await?;
+    // A pool would repeat a refused connection until its timeout.
+    let mut server = PgConnection::connect_with(&options).await?;
+    refuse_standby(&mut server).await?;
+    check_version(&mut server).await?;
+    let found = applied(&mut server).await?;
+    server.close().await?;
     let known = newest_version();
     match found {
         None => Err(BackupError::NoDatabase(path)),
         Some(found) if found < known => Err(BackupError::Older { path, found, known }),
         Some(found) if found > known => Err(StoreError::Newer { path, found, known }.into()),
-        Some(_) => {
-            drop(connection);
-            Ok(database)
-        }
+        Some(_) => Ok(connect(READERS, options, TIMEOUT_TO_VERIFY).await?),
     }
 }
 

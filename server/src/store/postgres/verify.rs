@@ -109,11 +109,7 @@ impl Verified for PgPool {
                 .bind(job)
                 .fetch_optional(self)
                 .await?;
-        Ok(row.map(|(sha256, state, object)| CheckpointRow {
-            sha256,
-            state,
-            object,
-        }))
+        Ok(row.map(CheckpointRow::from))
     }
 
     async fn address_of_objects(&self) -> Result<Option<String>, StoreError> {
@@ -122,10 +118,36 @@ impl Verified for PgPool {
     }
 
     async fn is_copy(&self) -> Result<bool, StoreError> {
-        let owner = identity(&mut *self.acquire().await?).await?;
-        let copy = sqlx::query_scalar(
-            "SELECT EXISTS (SELECT FROM object_store WHERE NOT removes OR owner <> $1)",
-        );
-        Ok(copy.bind(owner).fetch_one(self).await?)
+        let noted = sqlx::query_as("SELECT removes, owner FROM object_store");
+        let noted: Option<(bool, Option<String>)> = noted.fetch_optional(self).await?;
+        let Some((removes, owner)) = noted else {
+            return Ok(false);
+        };
+        let own = identity(&mut *self.acquire().await?).await?;
+        Ok(!removes || owner.is_some_and(|owner| is_another(&owner, &own)))
+    }
+}
+
+/// Whether two identities are of two databases. A role that may not read that of the server has only the number of the database.
+fn is_another(noted: &str, own: &str) -> bool {
+    match (noted.split_once('/'), own.split_once('/')) {
+        (Some(noted), Some(own)) => noted != own,
+        (noted_parts, own_parts) => {
+            let number = |parts: Option<(_, _)>, whole| parts.map_or(whole, |(_, number)| number);
+            number(noted_parts, noted) != number(own_parts, own)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_role_that_may_not_read_the_server_sees_no_copy() {
+        assert!(is_another("7/16384", "8/16384") && is_another("7/16384", "7/16385"));
+        assert!(is_another("16384", "7/16385") && is_another("16384", "16385"));
+        assert!(!is_another("7/16384", "7/16384") && !is_another("7/16384", "16384"));
+        assert!(!is_another("16384", "7/16384"));
     }
 }

@@ -69,12 +69,12 @@ impl SqliteStore {
     pub(in crate::store) async fn note_mark_of_objects(
         &self,
         address: &str,
-    ) -> Result<(), StoreError> {
-        sqlx::query("UPDATE object_store SET is_marked = 1 WHERE NOT is_marked AND address = ?")
+    ) -> Result<bool, StoreError> {
+        let noted = sqlx::query("UPDATE object_store SET is_marked = 1 WHERE address = ?")
             .bind(address)
             .execute(&self.writer)
             .await?;
-        Ok(())
+        Ok(noted.rows_affected() > 0)
     }
 
     pub(in crate::store) async fn any_object(&self) -> Result<Option<String>, StoreError> {

@@ -29,6 +29,9 @@ pub(in crate::store) async fn verify(
     if found < known {
         return Err(BackupError::Older { path, found, known });
     }
+    if found > known {
+        return Err(StoreError::Newer { path, found, known }.into());
+    }
     let pool = SqlitePoolOptions::new().max_connections(CONNECTIONS);
     let database = pool.connect_with(at(&path)).await?;
     check_integrity(&path, &mut *database.acquire().await?).await?;
@@ -112,11 +115,7 @@ impl Verified for SqlitePool {
                 .bind(job.to_string())
                 .fetch_optional(self)
                 .await?;
-        Ok(row.map(|(sha256, state, object)| CheckpointRow {
-            sha256,
-            state,
-            object,
-        }))
+        Ok(row.map(CheckpointRow::from))
     }
 
     async fn address_of_objects(&self) -> Result<Option<String>, StoreError> {

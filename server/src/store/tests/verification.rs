@@ -16,6 +16,7 @@ on_both_engines! { WithObjects:
     a_short_object_is_damaged,
     what_cannot_be_read_is_not_called_damaged,
     another_store_of_objects_is_refused,
+    files_of_a_folder_that_is_not_mounted_are_not_called_damaged,
     all_jobs_are_verified,
 }
 
@@ -135,7 +136,12 @@ async fn a_short_object_is_damaged(database: WithObjects) {
     let object = objects.iter().find(is_of_job).expect("an object");
     let length = std::fs::metadata(object).expect("a file").len();
     // Its last file is the shortest part, and its content the first.
-    for (left, of) in [(length - 1, "a.vtu of job"), (0, "results of job")] {
+    let file = b"fields".len() as u64;
+    for (left, of) in [
+        (length - 1, "a.vtu of job"),
+        (length - file, "a.vtu of job"),
+        (0, "results of job"),
+    ] {
         cut(object, left);
         assert_one(&database.damaged().await, of, "bytes");
     }
@@ -144,6 +150,9 @@ async fn a_short_object_is_damaged(database: WithObjects) {
 
 async fn what_cannot_be_read_is_not_called_damaged(database: WithObjects) {
     let id = database.ended(Transition::Succeed).await;
+    for _ in 0..102 {
+        database.ended(Transition::Succeed).await;
+    }
     database.moved().await;
     let objects = database.objects_at("objects");
     let folder = database.place.folder.path().join("objects");
@@ -151,12 +160,37 @@ async fn what_cannot_be_read_is_not_called_damaged(database: WithObjects) {
     std::fs::rename(&folder, &away).expect("moved");
     std::fs::write(&folder, "").expect("a file in its place");
     let found = database.verified(Some(&objects)).await.expect("verified");
-    assert_eq!((found.jobs, found.damaged.len()), (1, 0));
-    assert_one(&found.unread, "results of job", "objects");
+    // Of so many in succession, the last ones are not tried.
+    assert_eq!((found.jobs, found.unread.len()), (101, 101));
+    assert!(found.has_ended_early && found.damaged.is_empty());
+    assert_one(&found.unread[..1], "results of job", "objects");
     std::fs::remove_file(&folder).expect("removed");
     std::fs::rename(&away, &folder).expect("moved back");
     assert!(!database.is_marked(id).await);
     assert_eq!(database.damaged().await, Vec::<String>::new());
+}
+
+async fn files_of_a_folder_that_is_not_mounted_are_not_called_damaged(database: WithObjects) {
+    let mut ids = Vec::new();
+    for _ in 0..102 {
+        ids.push(database.ended(Transition::Fail).await);
+    }
+    let of_service = if database.store.is_shared() {
+        "objects"
+    } else {
+        "test.db.results"
+    };
+    let folder = database.place.folder.path().join(of_service);
+    let objects = database.objects_at("objects");
+    let away = folder.with_file_name("away");
+    std::fs::rename(&folder, &away).expect("moved");
+    let found = database.verified(Some(&objects)).await.expect("verified");
+    let missing = found.unread.len() + found.elsewhere.len();
+    assert!(missing > 100 && found.damaged.is_empty(), "{found:?}");
+    std::fs::rename(&away, &folder).expect("moved back");
+    for id in ids {
+        assert!(!database.is_marked(id).await);
+    }
 }
 
 async fn another_store_of_objects_is_refused(database: WithObjects) {
@@ -210,7 +244,7 @@ async fn files_in_the_folder_of_another_machine_are_not_called_damaged() {
     let files = elsewhere.path().join("test.db");
     let verified = verify(&database.place.url, &files, None).await;
     let verified = verified.expect("verified");
-    assert_one(&verified.unread, "a.vtu of job", "is not here");
+    assert_one(&verified.elsewhere, "a.vtu of job", "is not here");
     assert_eq!((verified.files, verified.damaged.len()), (3, 0));
     assert!(!database.is_marked(id).await);
     let file = database.place.folder.path().join("test.db.results");
@@ -244,6 +278,7 @@ async fn objects_that_the_original_of_a_copy_has_removed_are_not_called_damaged(
     let objects = Objects::open(&format!("file://{}", objects.display()));
     let verified = verify(&url, &place.files(), objects.as_ref().ok()).await;
     let verified = verified.expect("verified");
+    assert_one(&verified.elsewhere, "a.vtu of job", "original");
     assert_eq!((verified.damaged, verified.unread), (vec![], vec![]));
 }
 
