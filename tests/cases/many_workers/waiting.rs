@@ -41,8 +41,6 @@ async fn first_are_solved(folder: &Path) {
     let began = Instant::now();
     let sweep = submitted(&services[0], waiting).await;
     let path = format!("/v1/sweeps/{}", sweep["id"].as_str().expect("an id"));
-    // The grid may have fewer jobs.
-    let waiting = number(&sweep["asked"]);
     all_wait(&services[0], &path, waiting).await;
     if is_long() {
         say(&format!("{waiting} jobs wait after {:?}", began.elapsed()));
@@ -62,11 +60,12 @@ async fn first_are_solved(folder: &Path) {
 }
 
 /// Waits until all jobs of a sweep wait in the queue.
-async fn all_wait(server: &Server, path: &str, jobs: u64) {
+async fn all_wait(server: &Server, path: &str, jobs: usize) {
+    let all = u64::try_from(jobs).expect("small");
     let wait = async {
         loop {
             let (_, sweep) = server.get(&format!("{path}?limit=1")).await;
-            if number(&sweep["counts"]["queued"]) == jobs {
+            if number(&sweep["counts"]["queued"]) == all {
                 return;
             }
             tokio::time::sleep(Duration::from_millis(100)).await;
