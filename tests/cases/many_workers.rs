@@ -11,7 +11,7 @@
 //! `FRETWEAR_WORKERS_SLOTS` of them are in a process (4), which sends their writes together. `FRETWEAR_WORKERS_BUNDLE` is the number of jobs that one
 //! claims at once (1); with `FRETWEAR_WORKERS_ENDS_ONLY` it records nothing between claim and end.
 //!
-//! `waiting` lets `FRETWEAR_WORKERS_WAITING` jobs wait at first (1 000), of which so many are solved:
+//! `waiting` lets `FRETWEAR_WORKERS_WAITING` jobs wait at first (1 000; above 40 000 a multiple of that), of which so many are solved:
 //!
 //!     FRETWEAR_WORKERS_WAITING=1000000 FRETWEAR_WORKERS_LOAD=50000,1000 cargo test --release -p tests many_workers::waiting -- --nocapture
 //!
@@ -33,7 +33,7 @@ use std::time::{Duration, Instant};
 
 use futures_util::{StreamExt, stream};
 use nix::sys::signal::Signal;
-use tests::{Server, bits};
+use tests::{PostgresServer, Server, bits};
 
 use simulated::{Done, ENDS_ONLY, Harm, started};
 
@@ -78,20 +78,24 @@ mod of_a_file {
 }
 
 mod of_postgresql {
-    use tests::PostgresServer;
-
     #[tokio::test(flavor = "multi_thread")]
     #[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
     async fn every_job_is_solved_once_although_answers_are_lost_and_a_service_is_killed() {
         let folder = tempfile::tempdir().expect("a folder can be made");
-        // Rates are those of a server that waits for its disk, as SQLite does.
-        let durable = super::is_long().then(|| PostgresServer::start(&["max_connections=200"]));
-        match &durable {
-            Some(server) => tests::use_database(folder.path(), &server.new_database()),
-            None => drop(tests::use_postgresql(folder.path())),
-        }
+        let _server = super::use_postgresql(folder.path());
         super::solved_once(folder.path(), super::load().2).await;
     }
+}
+
+/// Lets the services of a folder serve a PostgreSQL database: in the long form that of a server of its own, which waits for its disk as SQLite does.
+fn use_postgresql(folder: &Path) -> Option<PostgresServer> {
+    if !is_long() {
+        tests::use_postgresql(folder);
+        return None;
+    }
+    let server = PostgresServer::start(&["max_connections=200"]);
+    tests::use_database(folder, &server.new_database());
+    Some(server)
 }
 
 /// Lets workers of some services solve jobs, kills a service meanwhile, and checks what is recorded.

@@ -7,10 +7,10 @@ use std::time::{Duration, Instant};
 
 use nix::sys::signal::Signal;
 use serde_json::{Value, json};
-use tests::{PostgresServer, Server};
+use tests::Server;
 
 use super::simulated::{Done, Harm, started};
-use super::{ATTEMPTS, SPEC, is_long, load, report, report_size};
+use super::{ATTEMPTS, SPEC, is_long, load, report, report_size, use_postgresql};
 
 /// Jobs of the sweep that wait at most in the short form.
 const AHEAD: u64 = 60;
@@ -39,11 +39,7 @@ async fn every_job_of_a_large_sweep_is_solved_once_although_the_service_is_kille
 #[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
 async fn two_services_queue_every_job_of_a_large_sweep_once() {
     let folder = tempfile::tempdir().expect("a folder can be made");
-    let durable = is_long().then(|| PostgresServer::start(&["max_connections=200"]));
-    match &durable {
-        Some(server) => tests::use_database(folder.path(), &server.new_database()),
-        None => drop(tests::use_postgresql(folder.path())),
-    }
+    let _server = use_postgresql(folder.path());
     solved_once(folder.path(), 2).await;
 }
 

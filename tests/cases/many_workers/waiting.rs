@@ -5,11 +5,11 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
-use tests::{PostgresServer, Server};
+use tests::Server;
 
 use super::simulated::{Done, Harm, started};
 use super::sweep::{number, say, submitted};
-use super::{ATTEMPTS, asked, is_long, load, report};
+use super::{ATTEMPTS, asked, is_long, load, report, use_postgresql};
 
 /// Jobs that wait at first, and those that are solved, in the short form.
 const WAITING: usize = 1_000;
@@ -23,11 +23,7 @@ const PATIENCE: Duration = Duration::from_hours(2);
 #[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
 async fn two_services_take_the_first_jobs_of_a_long_queue() {
     let folder = tempfile::tempdir().expect("a folder can be made");
-    let durable = is_long().then(|| PostgresServer::start(&["max_connections=200"]));
-    match &durable {
-        Some(server) => tests::use_database(folder.path(), &server.new_database()),
-        None => drop(tests::use_postgresql(folder.path())),
-    }
+    let _server = use_postgresql(folder.path());
     first_are_solved(folder.path()).await;
 }
 
