@@ -110,6 +110,7 @@ async fn malicious_documents_are_refused_with_a_problem() {
     // A wear coefficient so small that the run does not end early.
     let rows = json!({
         "system": {"kind": "dimm"},
+        "plating": {"slider": [], "receptacle": []},
         "interface": {"wear": {"slider": null, "receptacle": {"law": "archard", "k_over_h_per_mpa": 1e-12}}},
         "cycles": 1_000_000_000,
         "accuracy": {"overrides": {"cycle_jump": 1}},

@@ -10,6 +10,7 @@ use tests::fretwear;
 fn card(law: &Value, cycles: u64) -> Value {
     json!({
         "system": {"kind": "sd_card"},
+        "plating": {"slider": [], "receptacle": []},
         "interface": {"wear": {"slider": null, "receptacle": law}},
         "motion": {"kind": "reciprocating", "amplitude_mm": 0.02, "period_s": 0.05},
         "cycles": cycles,

@@ -9,6 +9,7 @@ pub fn bare_preset(kind: &str) -> Value {
         "fuzz_button" => json!({
             "system": {"kind": kind},
             "materials": {"slider": "copper", "receptacle": "copper"},
+            "plating": {"slider": [], "receptacle": []},
             "interface": {
                 "friction": {"law": "coulomb", "coefficient": 1.21},
                 "wear": {"slider": null, "receptacle": {"law": "archard", "k": 0.011, "hardness_mpa": 427}},
@@ -17,6 +18,7 @@ pub fn bare_preset(kind: &str) -> Value {
         "cylinder_on_flat" => json!({"system": {"kind": kind}}),
         _ => json!({
             "system": {"kind": kind},
+            "plating": {"slider": [], "receptacle": []},
             "interface": {
                 "wear": {"slider": null, "receptacle": {"law": "archard", "k": 0.004, "hardness_mpa": 1700}},
             },

@@ -17,7 +17,8 @@ string_enum! {
     }
 }
 
-/// The normal load. Which fields belong to it depends on its kind.
+/// The normal load. Which fields belong to it depends on its kind; of the preset's kind, fields that are left out have the preset's
+/// values.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Load {
     /// Its kind.

@@ -5,8 +5,8 @@ use utoipa::ToSchema;
 
 use super::{Material, WearLaw};
 
-/// The platings of both parts. A part without a list has the preset's plating, unless its material or the law of its wear is given: it
-/// is bare then. A part whose list is empty is bare.
+/// The platings of both parts. A part without a list has the preset's plating, whatever else of it is given, unless its wear is `null`: it
+/// does not wear at all then and has no layers. A part whose list is empty is bare.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Platings {
     /// Layers of the sprung or vibrating part, from the surface down.

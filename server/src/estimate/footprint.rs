@@ -192,7 +192,7 @@ mod tests {
     use crate::spec;
 
     /// The surfaces of the base scene.
-    const FUZZ_BUTTON: &str = r#""materials":{"slider":"copper","receptacle":"copper"},
+    const FUZZ_BUTTON: &str = r#""plating":{"slider":[],"receptacle":[]},"materials":{"slider":"copper","receptacle":"copper"},
         "interface":{"friction":{"law":"coulomb","coefficient":1.21},
         "wear":{"slider":null,"receptacle":{"law":"archard","k":0.011,"hardness_mpa":427}}}"#;
 
@@ -202,7 +202,7 @@ mod tests {
 
     #[test]
     fn estimates_match_measured_runs() {
-        let zif = r#""interface":{"wear":{"slider":null,"receptacle":{"law":"archard","k":0.004,"hardness_mpa":1700}}}"#;
+        let zif = r#""plating":{"slider":[],"receptacle":[]},"interface":{"wear":{"slider":null,"receptacle":{"law":"archard","k":0.004,"hardness_mpa":1700}}}"#;
         // Unknowns and peak memory of whole runs, as `fretwear solve` reported them.
         for (kind, surfaces, preset, dofs, memory_mb) in [
             ("fuzz_button", FUZZ_BUTTON, "fine", 75_660.0, 262.0),

@@ -1,6 +1,6 @@
 //! Notes of a plan: contradictions in the source of the presets that concern the values of the specification.
 
-use api::spec::{EnumValue, LoadKind, Preset, SystemKind, WearLaw};
+use api::spec::{EnumValue, LoadKind, Material, Preset, Provenance, Spec, SystemKind, WearLaw};
 use solver::model::resolution;
 use solver::scene::{LineShape, RingMotion};
 
@@ -23,6 +23,7 @@ const HARDNESSES: [(f64, &str); 2] = [
 /// The notes of a resolved specification.
 pub(crate) fn notes(resolved: &Resolved) -> Vec<String> {
     let mut notes: Vec<String> = resolved.chosen.iter().cloned().collect();
+    notes.extend(kept_platings(resolved));
     notes.extend(hardnesses(resolved));
     if resolved.kind == SystemKind::FuzzButton {
         notes.extend(fuzz_button(resolved));
@@ -37,6 +38,38 @@ pub(crate) fn notes(resolved: &Resolved) -> Vec<String> {
         ));
     }
     notes
+}
+
+/// The platings that the preset gives, so that no plan hides what wears first.
+fn kept_platings(resolved: &Resolved) -> Vec<String> {
+    let Spec {
+        plating,
+        provenance,
+        ..
+    } = &resolved.spec;
+    let sides = [
+        ("slider", &plating.slider),
+        ("receptacle", &plating.receptacle),
+    ];
+    let kept = sides.into_iter().filter_map(|(side, layers)| {
+        let given = provenance.get(&format!("/plating/{side}/0/thickness_um"))?;
+        let layers = layers.as_ref().filter(|_| *given != Provenance::Given)?;
+        let words = layers.iter().map(|layer| {
+            let name = match &layer.material {
+                Some(Material::Given(properties)) => properties.name.as_deref(),
+                Some(Material::Named(name)) => Some(name.as_str()),
+                None => None,
+            };
+            let thickness = layer.thickness_um.unwrap_or_default();
+            format!("{thickness} um of {}", name.unwrap_or("another metal"))
+        });
+        let words: Vec<_> = words.collect();
+        Some(format!(
+            "plating of the preset kept on the {side}: {}",
+            words.join(" over ")
+        ))
+    });
+    kept.collect()
 }
 
 fn hardnesses(resolved: &Resolved) -> Vec<String> {
@@ -106,8 +139,12 @@ mod tests {
     #[test]
     fn notes_appear_where_contradictory_values_are_used() {
         let base = of(r#"{"system":{"kind":"fuzz_button"}}"#);
-        assert_eq!(base.len(), 4, "{base:?}");
-        assert!(base[0].starts_with("427 MPa"));
+        assert_eq!(base.len(), 6, "{base:?}");
+        assert!(
+            base[0]
+                .starts_with("plating of the preset kept on the slider: 0.76 um of hard_gold over")
+        );
+        assert!(base[2].starts_with("427 MPa"));
         let ends = |model: &str| {
             let notes = of(&format!(
                 r#"{{"system":{{"kind":"fuzz_button"}},"model":{model}}}"#
@@ -118,9 +155,8 @@ mod tests {
         assert!(!ends(r#"{"preset":"source_ring"}"#));
         // The copper below its plating.
         let plated = of(r#"{"system":{"kind":"sd_card"}}"#);
-        assert!(plated.len() == 1 && plated[0].starts_with("427 MPa"));
-        let worn =
-            r#""interface":{"wear":{"receptacle":{"law":"archard","k":1e-4,"hardness_mpa":1700}}}"#;
+        assert!(plated.len() == 3 && plated[2].starts_with("427 MPa"));
+        let worn = r#""plating":{"slider":[],"receptacle":[]},"interface":{"wear":{"receptacle":{"law":"archard","k":1e-4,"hardness_mpa":1700}}}"#;
         assert!(of(&format!(r#"{{"system":{{"kind":"sd_card"}},{worn}}}"#)).is_empty());
         let fine = r#""accuracy":{"preset":"source_fine"}"#;
         let coarse = of(&format!(

@@ -240,7 +240,7 @@ mod tests {
         let system = |rest: &str| {
             let law = r#"{"law":"archard","k":0.004,"hardness_mpa":1700}"#;
             workload(&format!(
-                r#"{{"system":{{"kind":"sd_card"}},"interface":{{"wear":{{"slider":null,"receptacle":{law}}}}}{rest}}}"#
+                r#"{{"system":{{"kind":"sd_card"}},"plating":{{"slider":[],"receptacle":[]}},"interface":{{"wear":{{"slider":null,"receptacle":{law}}}}}{rest}}}"#
             ))
         };
         let standard = system("");

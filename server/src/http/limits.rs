@@ -51,17 +51,17 @@ mod tests {
         let service = Service::new().await;
         let cases = [
             (
-                r#"{"system":{"kind":"fuzz_button"},"interface":{"wear":{"slider":null,"receptacle":{"law":"archard","k":0.011,"hardness_mpa":427}}},"accuracy":{"overrides":{"contact_element_mm":1e-5}}}"#,
+                r#"{"system":{"kind":"fuzz_button"},"plating":{"slider":[],"receptacle":[]},"interface":{"wear":{"slider":null,"receptacle":{"law":"archard","k":0.011,"hardness_mpa":427}}},"accuracy":{"overrides":{"contact_element_mm":1e-5}}}"#,
                 "/accuracy/overrides/contact_element_mm",
                 "surface nodes",
             ),
             (
-                r#"{"system":{"kind":"dimm"},"interface":{"wear":{"slider":null,"receptacle":{"law":"archard","k_over_h_per_mpa":1e-12}}},"cycles":1000000000,"accuracy":{"overrides":{"cycle_jump":1}}}"#,
+                r#"{"system":{"kind":"dimm"},"plating":{"slider":[],"receptacle":[]},"interface":{"wear":{"slider":null,"receptacle":{"law":"archard","k_over_h_per_mpa":1e-12}}},"cycles":1000000000,"accuracy":{"overrides":{"cycle_jump":1}}}"#,
                 "/output",
                 "MB of output; the limit is 4000",
             ),
             (
-                r#"{"system":{"kind":"dimm"},"interface":{"wear":{"slider":null,"receptacle":{"law":"archard","k_over_h_per_mpa":1e-12}}},"cycles":3000000,"accuracy":{"overrides":{"cycle_jump":1,"increments_per_cycle":100}}}"#,
+                r#"{"system":{"kind":"dimm"},"plating":{"slider":[],"receptacle":[]},"interface":{"wear":{"slider":null,"receptacle":{"law":"archard","k_over_h_per_mpa":1e-12}}},"cycles":3000000,"accuracy":{"overrides":{"cycle_jump":1,"increments_per_cycle":100}}}"#,
                 "/accuracy",
                 "an estimated 300000000 increments; the limit is 200000000",
             ),

@@ -3,6 +3,8 @@
 use api::rating::Coefficient;
 use api::spec::{Material, PlatingLayer, Spec, WearLaw};
 
+use crate::spec::materials::name;
+
 /// Multiplies all of them by a factor; returns them with their values before and after.
 pub(crate) fn scale(spec: &mut Spec, factor: f64) -> Vec<Coefficient> {
     let mut scaled = Vec::new();
@@ -77,18 +79,10 @@ fn scale_law(
             let given = std::mem::replace(value, *value * factor);
             Some(Coefficient {
                 pointer: format!("{pointer}/{field}"),
-                material: name(material),
+                material: material.and_then(name).map(str::to_owned),
                 given,
                 implied: *value,
             })
         });
     scaled.collect()
-}
-
-/// The name of a material, if it has one.
-fn name(material: Option<&Material>) -> Option<String> {
-    match material? {
-        Material::Named(name) => Some(name.clone()),
-        Material::Given(properties) => properties.name.clone(),
-    }
 }

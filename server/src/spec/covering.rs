@@ -1,10 +1,11 @@
 //! What covers each part: the layers of the specification, those of its preset, or none.
 //!
-//! A part has its preset's plating unless the specification gives its plating, the law of its wear or its material: who replaces the
-//! surface or what is below it describes a part of their own. An empty list is a bare part. With a continuous motion the slider
-//! is bare, because a surface that runs past cannot wear yet.
+//! A part has its preset's plating unless the specification gives its plating; an empty list is a bare part. A material and a wear law
+//! of a part are those of the base below the plating. A wear law of `null` without a given plating says that the part does not
+//! wear at all: it has no layers. With a continuous motion the slider is bare, because a surface that runs past cannot wear yet.
 
-use api::spec::{MotionKind, PlatingLayer, Platings, Spec};
+use api::problem::Fault;
+use api::spec::{MotionKind, PlatingLayer, Platings, Spec, WearLaw};
 use solver::sides::{Side, Sides};
 
 use crate::spec::materials;
@@ -41,23 +42,29 @@ pub(super) fn given(platings: &Platings) -> Sides<Option<&[PlatingLayer]>> {
 
 /// What covers both parts.
 pub(super) fn resolve<'a>(spec: &'a Spec, preset: &Preset) -> Sides<Covering<'a>> {
-    let wear = &spec.interface.wear;
-    let given_wear = Sides {
-        slider: wear.slider.is_some(),
-        receptacle: wear.receptacle.is_some(),
-    };
-    let materials = materials::by_side(&spec.materials);
     let given = given(&spec.plating);
-    Sides::from_fn(|side| {
-        let is_replaced = *given_wear.of(side) || materials.of(side).is_some();
-        match (*given.of(side), *preset.plating.of(side)) {
-            (Some([]), _) => Covering::Removed,
-            (Some(layers), _) => Covering::Given(layers),
-            (None, []) => Covering::Bare,
-            (None, _) if is_replaced => Covering::Bare,
-            (None, layers) => Covering::Preset(layers),
-        }
+    Sides::from_fn(|side| match (*given.of(side), *preset.plating.of(side)) {
+        (Some([]), _) => Covering::Removed,
+        (Some(layers), _) => Covering::Given(layers),
+        (None, []) => Covering::Bare,
+        (None, _) if is_unworn(spec, side) => Covering::Bare,
+        (None, layers) => Covering::Preset(layers),
     })
+}
+
+/// Checks whether the specification gives no wear to a side, with `null`.
+fn is_unworn(spec: &Spec, side: Side) -> bool {
+    matches!(wear_of(spec, side), Some(None))
+}
+
+/// The wear law that a specification gives a side.
+fn wear_of(spec: &Spec, side: Side) -> Option<Option<&WearLaw>> {
+    let wear = &spec.interface.wear;
+    let law = match side {
+        Side::Slider => &wear.slider,
+        Side::Receptacle => &wear.receptacle,
+    };
+    law.as_ref().map(Option::as_ref)
 }
 
 /// The preset of a kind for the motion of a specification.
@@ -70,6 +77,38 @@ pub(super) fn preset_for_motion(spec: &Spec, preset: Preset) -> Preset {
     *preset.plating.of_mut(Side::Slider) = &[];
     *preset.wear.of_mut(Side::Slider) = assumed(None);
     preset
+}
+
+/// Warnings where a specification gives the material or the wear law of a part without its plating: that of the preset stays, or is
+/// left out with a part that does not wear.
+pub(super) fn warnings(spec: &Spec, preset: &Preset) -> Vec<Fault> {
+    let materials = materials::by_side(&spec.materials);
+    let coverings = resolve(spec, preset);
+    let warnings = Side::BOTH.into_iter().filter_map(|side| {
+        let name = side.name();
+        let wear = format!("/interface/wear/{name}");
+        match *coverings.of(side) {
+            Covering::Preset(_) => {
+                let pointer = match (materials.of(side), wear_of(spec, side)) {
+                    (Some(_), _) => format!("/materials/{name}"),
+                    (None, Some(_)) => wear,
+                    (None, None) => return None,
+                };
+                let detail = format!(
+                    "it is that of the base: plating of the preset kept; write \"plating\": {{\"{name}\": []}} for a bare part"
+                );
+                Some(Fault::new(&pointer, detail))
+            }
+            Covering::Bare if !preset.plating.of(side).is_empty() && is_unworn(spec, side) => {
+                let detail = format!(
+                    "null without a given plating: the {name} does not wear at all, and the plating of the preset is left out"
+                );
+                Some(Fault::new(&wear, detail))
+            }
+            _ => None,
+        }
+    });
+    warnings.collect()
 }
 
 #[cfg(test)]

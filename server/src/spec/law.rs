@@ -32,8 +32,8 @@ use solver::sides::{Side, Sides};
 
 use crate::spec::covering::Covering;
 use crate::spec::diagnostics::Diagnostics;
-use crate::spec::materials::by_side;
-use crate::spec::sourced::{Sourced, source};
+use crate::spec::materials::{by_side, name};
+use crate::spec::sourced::{Sourced, assumed, source, sourced};
 use crate::spec::system::{ArchardPreset, Preset};
 pub(super) use numbers::numbers;
 use wearing_side::WearingSide;
@@ -68,27 +68,27 @@ pub(crate) fn resolve(
             Side::Receptacle => given.wear.receptacle.as_ref(),
         };
         let metal = Material::Named(preset.materials.of(at).value.to_owned());
-        let mut side = WearingSide {
+        // The base of a preset that is plated is a metal as any other that is named.
+        let is_plated = !preset.plating.of(at).is_empty() && *coverings.of(at) != Covering::Bare;
+        let is_metal_of_preset = |material: &&Material| name(material) == name(&metal);
+        let other = materials.of(at).filter(|given| !is_metal_of_preset(given));
+        let side = WearingSide {
             pointer: format!("/interface/wear/{}", at.name()),
             given: *materials.of(at),
             resolved: *resolved.of(at),
+            wears_as: other.or(is_plated.then_some(&metal)),
             surroundings_c,
         };
-        let is_base_metal = match coverings.of(at) {
-            Covering::Given(_) => {
-                let preset = base_below_plating(&side);
-                return wear(&side, law, preset, coefficient, diagnostics);
-            }
-            Covering::Preset(_) => true,
-            Covering::Removed => !preset.plating.of(at).is_empty(),
-            Covering::Bare => false,
+        let of_preset = *preset.wear.of(at);
+        let default = match coverings.of(at) {
+            // The law of the material that is plated, where the library lists one.
+            Covering::Given(_) => base_below_plating(&side).map_or_else(
+                || assumed(of_preset.value),
+                |listed| sourced(Some(listed.value), listed.provenance),
+            ),
+            Covering::Preset(_) | Covering::Removed | Covering::Bare => of_preset,
         };
-        // The base of a preset that is plated is a metal as any other that is named.
-        if is_base_metal {
-            side.given = side.given.or(Some(&metal));
-        }
-        let preset = Some(*preset.wear.of(at));
-        wear(&side, law, preset, coefficient, diagnostics)
+        wear(&side, law, default, coefficient, diagnostics)
     });
     let (slider, slider_law) = wear.slider;
     let (receptacle, receptacle_law) = wear.receptacle;
@@ -116,14 +116,14 @@ fn friction(
     (preset, coverings): (&Preset, Sides<Covering<'_>>),
     diagnostics: &mut Diagnostics,
 ) -> (Friction, scene::Friction) {
+    let of_preset = preset_friction::coefficient(materials, preset, coverings);
     let Some(given) = &given.friction else {
-        let coefficient = preset_friction::coefficient(materials, preset, coverings);
-        return coulomb::from_preset(coefficient.value, coefficient.provenance, diagnostics);
+        return coulomb::from_preset(of_preset, diagnostics);
     };
     let law = diagnostics.enum_member(&format!("{FRICTION}/law"), &given.law);
     diagnostics.provenance(format!("{FRICTION}/law"), Provenance::Given);
     let law = match law {
-        Some(FrictionLaw::Coulomb) => coulomb::resolve(given, diagnostics),
+        Some(FrictionLaw::Coulomb) => return coulomb::resolve(given, of_preset, diagnostics),
         Some(FrictionLaw::Frictionless) => frictionless::resolve(given, diagnostics),
         None => scene::Friction::Frictionless,
     };
@@ -134,31 +134,31 @@ fn friction(
 fn wear(
     side: &WearingSide<'_>,
     given: Option<&Option<WearLaw>>,
-    preset: Option<Sourced<Option<ArchardPreset>>>,
+    default: Sourced<Option<ArchardPreset>>,
     friction: f64,
     diagnostics: &mut Diagnostics,
 ) -> (Option<WearLaw>, Option<scene::WearLaw>) {
-    let unworn = match (given, preset) {
-        (Some(Some(given)), _) => {
+    let unworn = match (given, default.value) {
+        (Some(Some(given)), None) => {
             let (filled, law) = given_wear(side, given, friction, diagnostics);
             return (Some(filled), law);
         }
-        (Some(None), _) => Provenance::Given,
+        (Some(Some(given)), Some(preset)) => {
+            let preset = sourced(preset, default.provenance);
+            let given = archard::completed(side, given, preset);
+            let (filled, law) = given_wear(side, &given.law, friction, diagnostics);
+            for (pointer, provenance) in given.defaults {
+                diagnostics.provenance(pointer, provenance);
+            }
+            return (Some(filled), law);
+        }
         (None, Some(preset)) => {
-            let provenance = preset.provenance;
-            let Some(law) = preset.value else {
-                diagnostics.provenance(&side.pointer, provenance);
-                return (None, None);
-            };
-            diagnostics.provenance(side.field("law"), provenance);
-            let (filled, law) = archard::from_preset(side, law, provenance, diagnostics);
+            let preset = sourced(preset, default.provenance);
+            let (filled, law) = archard::from_preset(side, preset, diagnostics);
             return (Some(filled), Some(law));
         }
-        (None, None) => {
-            let detail = "the law of the base below the plating; write null if it does not wear";
-            diagnostics.missing(&side.pointer, detail);
-            return (None, None);
-        }
+        (Some(None), _) => Provenance::Given,
+        (None, None) => default.provenance,
     };
     diagnostics.provenance(&side.pointer, unworn);
     (None, None)
@@ -173,7 +173,7 @@ pub(super) fn check_plated(
 ) {
     if law.is_some_and(|law| law.uniform().is_none()) {
         let detail = "a plating and its base wear by laws whose rate is the same in every state: archard, sarkar, saracibar, \
-                      dissipated_energy";
+                      dissipated_energy; a bare part, with the `plating` `[]`, wears by any";
         diagnostics.fault(pointer, detail);
     }
 }
@@ -263,21 +263,14 @@ pub(super) fn listed_wear(
     diagnostics: &mut Diagnostics,
 ) -> Option<(WearLaw, scene::WearLaw)> {
     let law = base_below_plating(side)?;
-    diagnostics.provenance(side.field("law"), law.provenance);
-    Some(archard::from_preset(
-        side,
-        law.value?,
-        law.provenance,
-        diagnostics,
-    ))
+    Some(archard::from_preset(side, law, diagnostics))
 }
 
 /// The law of a material that the library lists a wear coefficient of: that of a preset belongs to the preset's plating.
-fn base_below_plating(side: &WearingSide<'_>) -> Option<Sourced<Option<ArchardPreset>>> {
+fn base_below_plating(side: &WearingSide<'_>) -> Option<Sourced<ArchardPreset>> {
     let material = side.resolved_library()?;
-    let preset = ArchardPreset {
+    Some(source(ArchardPreset {
         k: material.archard_k?,
         hardness_mpa: material.properties.hardness_mpa?,
-    };
-    Some(source(Some(preset)))
+    }))
 }

@@ -119,6 +119,7 @@ fn layer(
         pointer: format!("{pointer}/wear"),
         given: given.material.as_ref(),
         resolved: material.as_ref(),
+        wears_as: given.material.as_ref(),
         // Layers wear by laws that do not depend on it.
         surroundings_c: REFERENCE_C,
     };
@@ -276,9 +277,6 @@ mod tests {
         );
         let hard = r#"{"material":"silver","thickness_um":1.0,"wear":{"law":"archard","k":0}}"#;
         assert_eq!(pointers(&plated(hard, "")), ["/plating/receptacle/0/wear"]);
-        // The tip's beryllium copper has no listed coefficient.
-        let tip = format!(r#"{{"system":{{"kind":"sd_card"}},"plating":{{"slider":[{GOLD}]}}}}"#);
-        assert_eq!(pointers(&tip), ["/interface/wear/slider"]);
         let unworn = format!(
             r#"{{"system":{{"kind":"sd_card"}},"plating":{{"slider":[{GOLD}]}},"interface":{{"wear":{{"slider":null}}}}}}"#
         );
@@ -307,7 +305,8 @@ mod tests {
         let rate = |law: &str| {
             let base = format!(r#""receptacle":{law}"#);
             let text = format!(
-                r#"{{"system":{{"kind":"sd_card"}},"interface":{{"friction":{{"law":"coulomb","coefficient":0.6}},"wear":{{{base}}}}}}}"#
+                r#"{{"system":{{"kind":"sd_card"}},"plating":{{"receptacle":[]}},
+                "interface":{{"friction":{{"law":"coulomb","coefficient":0.6}},"wear":{{{base}}}}}}}"#
             );
             resolved(&text)
                 .scene

@@ -145,7 +145,7 @@ mod tests {
 
     #[test]
     fn a_wear_rate_that_contradicts_a_rating_is_named() {
-        let silver = r#"{"system":{"kind":"sd_card"},
+        let silver = r#"{"system":{"kind":"sd_card"},"plating":{"receptacle":[]},
             "interface":{"wear":{"receptacle":{"law":"archard","k":0.004,"hardness_mpa":1700}}}}"#;
         let [bare] = &warned(silver)[..] else {
             panic!("one warning");

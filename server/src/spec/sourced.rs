@@ -26,6 +26,7 @@ pub(crate) const fn assumed<T>(value: T) -> Sourced<T> {
     sourced(value, Provenance::Assumed)
 }
 
-const fn sourced<T>(value: T, provenance: Provenance) -> Sourced<T> {
+/// A value of a provenance.
+pub(crate) const fn sourced<T>(value: T, provenance: Provenance) -> Sourced<T> {
     Sourced { value, provenance }
 }

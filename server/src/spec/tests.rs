@@ -15,7 +15,7 @@ pub(super) fn accepted(text: &str) -> Resolved {
 fn bare_fuzz_button(rest: &str) -> String {
     format!(
         r#"{{"system":{{"kind":"fuzz_button"}},"materials":{{"slider":"copper","receptacle":"copper"}},
-        "interface":{{"friction":{{"law":"coulomb","coefficient":1.21}},
+        "plating":{{"slider":[],"receptacle":[]}},"interface":{{"friction":{{"law":"coulomb","coefficient":1.21}},
             "wear":{{"slider":null,"receptacle":{{"law":"archard","k":0.011,"hardness_mpa":427}}}}}}{rest}}}"#
     )
 }
@@ -188,7 +188,6 @@ fn fields_of_other_variants_are_faults() {
     let expected = [
         "/accuracy/tolerance",
         "/interface/friction/coefficient",
-        "/interface/wear/receptacle/k",
         "/interface/wear/slider/k_over_h_per_mpa",
         "/load/mpa",
         "/motion/period_s",

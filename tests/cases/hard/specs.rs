@@ -41,6 +41,7 @@ pub(crate) fn ring(changes: Value) -> Value {
         "system": {"kind": "fuzz_button"},
         "model": {"dimension": "ring", "outer_diameter_mm": 1.016, "top": "rigid"},
         "materials": {"slider": "copper", "receptacle": "copper"},
+        "plating": {"slider": [], "receptacle": []},
         "interface": {
             "friction": {"law": "coulomb", "coefficient": 1.21},
             "wear": {"slider": null, "receptacle": {"law": "archard", "k_over_h_per_mpa": 2.576e-5}},

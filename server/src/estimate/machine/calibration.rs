@@ -15,9 +15,9 @@ use crate::solve::thread_cpu_s;
 use crate::spec;
 
 /// A pad that wears below an unworn contact.
-const BARE_PAD: &str = r#""interface":{"wear":{"slider":null,"receptacle":{"law":"archard","k":0.004,"hardness_mpa":1700}}}"#;
+const BARE_PAD: &str = r#""plating":{"slider":[],"receptacle":[]},"interface":{"wear":{"slider":null,"receptacle":{"law":"archard","k":0.004,"hardness_mpa":1700}}}"#;
 /// The surfaces of the fuzz button of the source.
-const BARE_WIRE: &str = r#""materials":{"slider":"copper","receptacle":"copper"},"interface":{
+const BARE_WIRE: &str = r#""plating":{"slider":[],"receptacle":[]},"materials":{"slider":"copper","receptacle":"copper"},"interface":{
     "friction":{"law":"coulomb","coefficient":1.21},
     "wear":{"slider":null,"receptacle":{"law":"archard","k":0.011,"hardness_mpa":427}}}"#;
 const MCCOLL: &str = include_str!("../../../examples/mccoll.json");

@@ -23,7 +23,7 @@ fn bases(kind: &str, rest: &str) -> [Option<f64>; 2] {
 }
 
 #[test]
-fn a_part_keeps_its_plating_unless_its_plating_wear_or_material_is_given() {
+fn only_a_given_plating_or_no_wear_at_all_replaces_the_plating_of_a_preset() {
     let layer = r#"{"material":"silver","thickness_um":1}"#;
     let law = r#"{"law":"archard","k_over_h_per_mpa":1e-8}"#;
     for (rest, expected) in [
@@ -33,7 +33,7 @@ fn a_part_keeps_its_plating_unless_its_plating_wear_or_material_is_given() {
         (format!(r#","plating":{{"receptacle":[{layer}]}}"#), [2, 1]),
         (
             format!(r#","interface":{{"wear":{{"slider":{law}}}}}"#),
-            [0, 2],
+            [2, 2],
         ),
         (
             r#","interface":{"wear":{"receptacle":null}}"#.to_owned(),
@@ -43,8 +43,8 @@ fn a_part_keeps_its_plating_unless_its_plating_wear_or_material_is_given() {
             r#","interface":{"friction":{"law":"frictionless"}}"#.to_owned(),
             [2, 2],
         ),
-        (r#","materials":{"slider":"becu"}"#.to_owned(), [0, 2]),
-        (r#","materials":{"receptacle":"brass"}"#.to_owned(), [2, 0]),
+        (r#","materials":{"slider":"becu"}"#.to_owned(), [2, 2]),
+        (r#","materials":{"receptacle":"brass"}"#.to_owned(), [2, 2]),
         (
             r#","motion":{"kind":"continuous","distance_mm":1}"#.to_owned(),
             [0, 2],
@@ -68,6 +68,8 @@ fn a_bare_part_wears_by_the_metal_that_it_consists_of() {
     assert_eq!(bases("sd_card", removed), [becu, copper]);
     let named = r#","materials":{"slider":"becu","receptacle":"copper"}"#;
     assert_eq!(bases("sd_card", named), [becu, copper]);
+    let bronze = r#","materials":{"slider":"phosphor_bronze"}"#;
+    assert_eq!(bases("sd_card", bronze), [Some(0.004 / 1900.0), copper]);
     let own = r#","materials":{"receptacle":{"youngs_modulus_mpa":100000,"poisson_ratio":0.3}}"#;
     assert_eq!(bases("sd_card", own), [becu, Some(0.004 / 1700.0)]);
     // The bench geometry is bare anyway.
@@ -141,4 +143,77 @@ fn platings_of_a_slider_that_runs_past_are_refused_where_they_are_given() {
         panic!("one fault: {found:?}");
     };
     assert_eq!(fault.pointer, "/plating/slider");
+}
+
+/// The most frequent edits: another spring alloy, another coefficient of the base, another thickness of the gold.
+#[test]
+fn edits_of_a_plated_part_leave_what_is_above_and_below_it() {
+    let preset = scene("sd_card", "");
+    let brass = scene("sd_card", r#","materials":{"receptacle":"brass"}"#);
+    assert_eq!(brass.receptacle.plating, preset.receptacle.plating);
+    assert_ne!(brass.receptacle.elastic, preset.receptacle.elastic);
+    let base = scene(
+        "sd_card",
+        r#","interface":{"wear":{"slider":{"law":"archard","k":0.008}}}"#,
+    );
+    assert_eq!(base.slider.plating, preset.slider.plating);
+    let rate = base.slider.wear.and_then(WearLaw::uniform);
+    assert_eq!(rate, Some(0.008 / 3700.0));
+    let gold = r#","plating":{"slider":[{"material":"hard_gold","thickness_um":1.5,"wear":{"law":"archard","k":1e-5}}]}"#;
+    let thicker = accepted(&format!(r#"{{"system":{{"kind":"sd_card"}}{gold}}}"#));
+    assert_eq!(thicker.scene.slider.wear, preset.slider.wear);
+    assert_eq!(
+        thicker.spec.provenance["/interface/wear/slider/k"],
+        Provenance::Assumed
+    );
+    assert_eq!(thicker.scene.receptacle, preset.receptacle);
+}
+
+#[test]
+fn a_plan_says_which_plating_is_kept_or_left_out() {
+    let warned = |rest: &str| -> Vec<String> {
+        let resolved = accepted(&format!(r#"{{"system":{{"kind":"sd_card"}}{rest}}}"#));
+        let warnings = resolved.warnings.into_iter();
+        warnings
+            .filter(|fault| fault.detail.contains("plating of the preset"))
+            .map(|fault| fault.pointer)
+            .collect()
+    };
+    assert!(warned("").is_empty());
+    let alloy = r#","materials":{"slider":"phosphor_bronze"}"#;
+    assert_eq!(warned(alloy), ["/materials/slider"]);
+    let law = r#","interface":{"wear":{"receptacle":{"law":"archard","k":1e-3}}}"#;
+    assert_eq!(warned(law), ["/interface/wear/receptacle"]);
+    let unworn = r#","interface":{"wear":{"slider":null}}"#;
+    assert_eq!(warned(unworn), ["/interface/wear/slider"]);
+    let bare = r#","plating":{"slider":[]},"interface":{"wear":{"slider":null}}"#;
+    assert!(warned(bare).is_empty());
+}
+
+/// Fields of an object of the kind that the preset has keep the preset's other values.
+#[test]
+fn parts_of_an_object_of_the_same_kind_keep_the_others() {
+    for (kind, part) in [
+        ("sd_card", r#","load":{"kind":"force","n":0.5}"#),
+        ("sd_card", r#","load":{"kind":"force","width_mm":0.8}"#),
+        ("cylinder_on_flat", r#","load":{"kind":"line_force"}"#),
+        ("fuzz_button", r#","load":{"kind":"pressure"}"#),
+        (
+            "fuzz_button",
+            r#","interface":{"friction":{"law":"coulomb"}}"#,
+        ),
+        (
+            "dimm",
+            r#","interface":{"wear":{"slider":{"law":"archard"}}}"#,
+        ),
+        (
+            "cylinder_on_flat",
+            r#","interface":{"wear":{"receptacle":{"law":"archard","k":1e-4}}}"#,
+        ),
+        ("zif", r#","motion":{"kind":"reciprocating"}"#),
+    ] {
+        assert_eq!(scene(kind, part), scene(kind, ""), "{kind}{part}");
+    }
+    let found = faults(r#"{"system":{"kind":"sd_card"},"load":{"kind":"line_force"}}"#);
+    assert_eq!(found[0].pointer, "/load/n_per_mm");
 }

@@ -55,8 +55,9 @@ fn an_unknown_melting_temperature_is_named_and_one_that_is_passed_refused() {
     assert_eq!(found[0].pointer, "/environment/temperature_c");
     assert!(found[0].detail.contains("tin melts"), "{}", found[0].detail);
     let law = r#","interface":{"wear":{"receptacle":{"law":"dissipated_energy","energy_coefficient_mm3_per_j":1e-5}}}"#;
-    let bare =
-        format!(r#"{{"system":{{"kind":"sd_card"}},"environment":{{"temperature_c":85}}{law}}}"#);
+    let bare = format!(
+        r#"{{"system":{{"kind":"sd_card"}},"plating":{{"receptacle":[]}},"environment":{{"temperature_c":85}}{law}}}"#
+    );
     assert!(accepted(&bare).scene.receptacle.softening.ratios == [Some(1.0)]);
 }
 

@@ -6,6 +6,7 @@ use solver::scene;
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::law::wear_coefficient;
 use crate::spec::law::wearing_side::WearingSide;
+use crate::spec::sourced::{Sourced, source, sourced};
 use crate::spec::system::ArchardPreset;
 
 /// The fields of the law.
@@ -23,40 +24,97 @@ pub(super) fn resolve(
     (filled, law)
 }
 
-/// The law of a preset; beside another material than the preset's, with that material's hardness and, where the library
-/// lists one, its k.
-pub(super) fn from_preset(
-    side: &WearingSide<'_>,
-    preset: ArchardPreset,
-    provenance: Provenance,
-    diagnostics: &mut Diagnostics,
-) -> (WearLaw, scene::WearLaw) {
+/// The coefficients that a side has where its specification gives none.
+struct Defaults {
+    k: Sourced<f64>,
+    hardness_mpa: Sourced<f64>,
+}
+
+/// Those of a preset; beside another material than the preset's, with that material's hardness and, where the library lists one, its k.
+fn defaults(side: &WearingSide<'_>, preset: Sourced<ArchardPreset>) -> Defaults {
+    let Sourced { value, provenance } = preset;
     // The preset's values were chosen for the preset's material.
-    let provenance = match side.given {
+    let provenance = match side.wears_as {
         Some(_) => Provenance::Assumed,
         None => provenance,
     };
-    let library = side.library();
-    let (k, k_provenance) = match library.and_then(|material| material.archard_k) {
-        Some(listed) => (listed, Provenance::Source),
-        None => (preset.k, provenance),
+    let k = match side.library().and_then(|material| material.archard_k) {
+        Some(listed) => source(listed),
+        None => sourced(value.k, provenance),
     };
-    let (own_hardness, own_provenance) = match (side.given, library) {
-        (Some(Material::Given(properties)), _) => (properties.hardness_mpa, Provenance::Given),
-        (_, Some(listed)) => (listed.properties.hardness_mpa, listed.hardness_provenance),
-        (_, None) => (None, provenance),
+    let changed = side.changed_hardness_mpa();
+    let own_hardness = match (side.wears_as, side.library()) {
+        _ if changed.is_some() => changed.map(|own| sourced(own, Provenance::Given)),
+        (Some(Material::Given(properties)), _) => properties
+            .hardness_mpa
+            .map(|own| sourced(own, Provenance::Given)),
+        (_, Some(listed)) => {
+            let own = listed.properties.hardness_mpa;
+            own.map(|own| sourced(own, listed.hardness_provenance))
+        }
+        (_, None) => None,
     };
-    let (hardness, hardness_provenance) = match own_hardness {
-        Some(hardness) => (hardness, own_provenance),
-        None => (preset.hardness_mpa, provenance),
-    };
-    diagnostics.provenance(side.field("k"), k_provenance);
-    diagnostics.provenance(side.field("hardness_mpa"), hardness_provenance);
+    Defaults {
+        k,
+        hardness_mpa: own_hardness.unwrap_or(sourced(value.hardness_mpa, provenance)),
+    }
+}
+
+/// The law of a preset.
+pub(super) fn from_preset(
+    side: &WearingSide<'_>,
+    preset: Sourced<ArchardPreset>,
+    diagnostics: &mut Diagnostics,
+) -> (WearLaw, scene::WearLaw) {
+    let Defaults { k, hardness_mpa } = defaults(side, preset);
+    diagnostics.provenance(side.field("law"), preset.provenance);
+    diagnostics.provenance(side.field("k"), k.provenance);
+    diagnostics.provenance(side.field("hardness_mpa"), hardness_mpa.provenance);
     let filled = WearLaw {
-        k: Some(k),
-        hardness_mpa: Some(hardness),
+        k: Some(k.value),
+        hardness_mpa: Some(hardness_mpa.value),
         ..WearLaw::of(WearLawName::Archard)
     };
-    let k_over_h_per_mpa = k / hardness;
+    let k_over_h_per_mpa = k.value / hardness_mpa.value;
     (filled, scene::WearLaw::Archard { k_over_h_per_mpa })
+}
+
+/// A given law with the coefficients of a preset where it leaves them out; of another law than the preset's it is unchanged.
+pub(super) fn completed(
+    side: &WearingSide<'_>,
+    given: &WearLaw,
+    preset: Sourced<ArchardPreset>,
+) -> Completed {
+    let mut completed = Completed {
+        law: given.clone(),
+        defaults: Vec::new(),
+    };
+    if given.law != WearLawName::Archard.into() || given.k_over_h_per_mpa.is_some() {
+        return completed;
+    }
+    let Defaults { k, hardness_mpa } = defaults(side, preset);
+    let WearLaw {
+        k: own_k,
+        hardness_mpa: own_hardness,
+        ..
+    } = &mut completed.law;
+    for (field, own, default) in [
+        ("k", own_k, k),
+        ("hardness_mpa", own_hardness, hardness_mpa),
+    ] {
+        if own.is_none() {
+            *own = Some(default.value);
+            completed
+                .defaults
+                .push((side.field(field), default.provenance));
+        }
+    }
+    completed
+}
+
+/// A law with defaults.
+pub(super) struct Completed {
+    pub(super) law: WearLaw,
+    /// JSON pointers of the values that were left out, with their provenances.
+    pub(super) defaults: Vec<(String, Provenance)>,
 }

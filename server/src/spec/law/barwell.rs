@@ -87,7 +87,7 @@ mod tests {
 
     fn specification(rest: &str) -> String {
         format!(
-            r#"{{"system":{{"kind":"sd_card"}},"interface":{{"wear":{{"receptacle":{{"law":"barwell",{rest}}}}}}}}}"#
+            r#"{{"system":{{"kind":"sd_card"}},"plating":{{"receptacle":[]}},"interface":{{"wear":{{"receptacle":{{"law":"barwell",{rest}}}}}}}}}"#
         )
     }
 

@@ -5,23 +5,31 @@ use solver::scene;
 
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::law::friction_table::{self, BY_CYCLE, BY_DOSE, COEFFICIENT_RANGE};
+use crate::spec::sourced::Sourced;
 
 const LAW: &str = "/interface/friction/law";
 const COEFFICIENT: &str = "/interface/friction/coefficient";
 
-/// Resolves the law of a specification.
-pub(super) fn resolve(given: &Friction, diagnostics: &mut Diagnostics) -> scene::Friction {
+/// Resolves the law of a specification; without a coefficient it has the preset's.
+pub(super) fn resolve(
+    given: &Friction,
+    of_preset: Sourced<f64>,
+    diagnostics: &mut Diagnostics,
+) -> (Friction, scene::Friction) {
+    if (given.coefficient, &given.by_cycle, &given.by_dose) == (None, &None, &None) {
+        let filled = from_preset(of_preset, diagnostics);
+        diagnostics.provenance(LAW, Provenance::Given);
+        return filled;
+    }
+    (given.clone(), given_law(given, diagnostics))
+}
+
+fn given_law(given: &Friction, diagnostics: &mut Diagnostics) -> scene::Friction {
     // What stands for a law, or for a table, with faults.
     let none = scene::Friction::Coulomb { coefficient: 0.0 };
     let empty = || scene::Table::new(&[(0.0, 0.0)]);
     match (given.coefficient, &given.by_cycle, &given.by_dose) {
-        (None, None, None) => {
-            diagnostics.missing(
-                COEFFICIENT,
-                "`coulomb` needs it, or `by_cycle`, or `by_dose`",
-            );
-            none
-        }
+        (None, None, None) => none,
         (Some(coefficient), None, None) => {
             diagnostics.check_range(COEFFICIENT, coefficient, &COEFFICIENT_RANGE);
             diagnostics.provenance(COEFFICIENT, Provenance::Given);
@@ -52,10 +60,13 @@ pub(super) fn resolve(given: &Friction, diagnostics: &mut Diagnostics) -> scene:
 
 /// The law with the coefficient of a preset.
 pub(super) fn from_preset(
-    coefficient: f64,
-    provenance: Provenance,
+    of_preset: Sourced<f64>,
     diagnostics: &mut Diagnostics,
 ) -> (Friction, scene::Friction) {
+    let Sourced {
+        value: coefficient,
+        provenance,
+    } = of_preset;
     diagnostics.provenance(LAW, provenance);
     diagnostics.provenance(COEFFICIENT, provenance);
     let filled = Friction {

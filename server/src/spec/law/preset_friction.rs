@@ -78,13 +78,13 @@ mod tests {
     #[test]
     fn a_coefficient_belongs_to_its_pair_of_surfaces() {
         assert_eq!(friction(""), (0.55, Provenance::Typical));
-        let copper = r#","materials":{"slider":"copper","receptacle":"copper"}"#;
+        let copper = r#","materials":{"slider":"copper","receptacle":"copper"},"plating":{"slider":[],"receptacle":[]}"#;
         assert_eq!(friction(copper), (1.21, Provenance::Source));
         // Beryllium copper on copper, and copper on gold.
         let bare = r#","plating":{"slider":[],"receptacle":[]}"#;
         assert_eq!(friction(bare), (1.21, Provenance::Assumed));
         let one = r#","materials":{"slider":"copper"}"#;
-        assert_eq!(friction(one), (0.55, Provenance::Assumed));
+        assert_eq!(friction(one), (0.55, Provenance::Typical));
         let layer = |material: &str| {
             format!(
                 r#","plating":{{"slider":[{{"material":"{material}","thickness_um":1,"wear":{{"law":"archard","k":1e-5}}}}]}},

@@ -49,7 +49,7 @@ mod tests {
 
     fn specification(law: &str, rest: &str) -> String {
         format!(
-            r#"{{"system":{{"kind":"sd_card"}},"interface":{{"wear":{{"receptacle":{{"law":"{law}"{rest}}}}}}}}}"#
+            r#"{{"system":{{"kind":"sd_card"}},"plating":{{"receptacle":[]}},"interface":{{"wear":{{"receptacle":{{"law":"{law}"{rest}}}}}}}}}"#
         )
     }
 

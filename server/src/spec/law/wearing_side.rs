@@ -3,12 +3,15 @@
 use api::spec::Material;
 
 use crate::reference::materials::LibraryMaterial;
+use crate::spec::materials;
 
 /// A side with its material as given and as resolved.
 pub(in crate::spec) struct WearingSide<'a> {
     pub(in crate::spec) pointer: String,
     pub(in crate::spec) given: Option<&'a Material>,
     pub(in crate::spec) resolved: Option<&'a Material>,
+    /// The material whose coefficients stand where the specification gives none; nothing where those of the preset do.
+    pub(in crate::spec) wears_as: Option<&'a Material>,
     /// Temperature of the surroundings, °C.
     pub(in crate::spec) surroundings_c: f64,
 }
@@ -19,12 +22,19 @@ impl WearingSide<'_> {
         format!("{}/{name}", self.pointer)
     }
 
-    /// The material of the library that was named.
+    /// The material of the library whose coefficients stand, named alone or as the name of given properties.
     pub(super) fn library(&self) -> Option<&'static LibraryMaterial> {
-        match self.given {
-            Some(Material::Named(name)) => LibraryMaterial::named(name),
-            _ => None,
-        }
+        LibraryMaterial::named(materials::name(self.wears_as?)?)
+    }
+
+    /// The given hardness of a material with the name of one of the library, if it is another than the library's, MPa.
+    pub(super) fn changed_hardness_mpa(&self) -> Option<f64> {
+        let Some(Material::Given(properties)) = self.given else {
+            return None;
+        };
+        let listed = LibraryMaterial::named(properties.name.as_deref()?)?;
+        let hardness = properties.hardness_mpa;
+        hardness.filter(|_| hardness != listed.properties.hardness_mpa)
     }
 
     /// The material of the library that the side consists of, named or by default.

@@ -87,11 +87,9 @@ fn one_form_of_the_coefficient_is_given() {
         pointers(&card(&tables, "")),
         ["/interface/friction/by_dose"]
     );
-    let none = r#"{"law":"coulomb"}"#;
-    assert_eq!(
-        pointers(&card(none, "")),
-        ["/interface/friction/coefficient"]
-    );
+    // The coefficient of the preset.
+    let none = accepted(&card(r#"{"law":"coulomb"}"#, ""));
+    assert_eq!(none.scene.friction, Friction::Coulomb { coefficient: 0.3 });
     let frictionless = BY_CYCLE.replace("coulomb", "frictionless");
     assert_eq!(
         pointers(&card(&frictionless, "")),
@@ -148,7 +146,7 @@ fn laws_with_one_coefficient_are_refused_beside_one_that_changes() {
         let wear = format!(r#","wear":{{"receptacle":{law}}}"#);
         let text = |friction: &str| {
             format!(
-                r#"{{"system":{{"kind":"sd_card"}},"interface":{{"friction":{friction}{wear}}}}}"#
+                r#"{{"system":{{"kind":"sd_card"}},"plating":{{"receptacle":[]}},"interface":{{"friction":{friction}{wear}}}}}"#
             )
         };
         assert_eq!(
@@ -200,7 +198,9 @@ fn doses_are_read_from_depths_that_tell_them() {
     let rhee = r#"{"law":"rhee","wear_factor":2e-7,"pressure_exponent":1,"speed_exponent":1,"time_exponent":1}"#;
     let card = |friction: &str, law: &str| {
         let wear = format!(r#""wear":{{"slider":null,"receptacle":{law}}}"#);
-        format!(r#"{{"system":{{"kind":"sd_card"}},"interface":{{"friction":{friction},{wear}}}}}"#)
+        format!(
+            r#"{{"system":{{"kind":"sd_card"}},"plating":{{"receptacle":[]}},"interface":{{"friction":{friction},{wear}}}}}"#
+        )
     };
     accepted(&card(BY_DOSE, barwell));
     let [fault] = &faults(&card(BY_DOSE, rhee))[..] else {
