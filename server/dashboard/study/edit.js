@@ -38,8 +38,6 @@ export function set_value(spec, shown, shape, pointer, value) {
     const is_whole = of?.items || (object_form(of)?.required.length ?? 0) > 0 || Array.isArray(known);
     if (at[key] === null || typeof at[key] !== "object") at[key] = is_whole && known != null ? whole(known) : of?.items ? [] : {};
     at = at[key];
-    // A material with another property is no longer that of the library.
-    if (of?.forms.length) delete at.name;
   }
   const last = keys[keys.length - 1];
   for (const other of value === undefined ? [] : object_form(of)?.excluded_by(last) ?? []) delete at[other];

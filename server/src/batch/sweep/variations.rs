@@ -15,8 +15,8 @@ use crate::spec::{Refused, Resolved};
 /// The jobs of a sweep.
 pub(super) struct Variations<'a> {
     request: &'a SweepRequest,
-    /// Completes variants of which the base has nothing and a change sets one field: `/load/n` of the preset's load.
-    preset: Value,
+    /// The resolved base, into which the pointers of changes point.
+    resolved: Value,
 }
 
 /// Number of jobs of a sweep.
@@ -33,13 +33,13 @@ pub(super) fn number(request: &SweepRequest) -> u64 {
 impl<'a> Variations<'a> {
     /// Those of a request.
     pub(super) fn of(request: &'a SweepRequest) -> Self {
-        let preset = serde_json::to_vec(&request.base)
+        let resolved = serde_json::to_vec(&request.base)
             .ok()
             .and_then(|base| crate::spec::read(&base).ok())
             .and_then(|resolved| serde_json::to_value(resolved.spec).ok());
         Self {
             request,
-            preset: preset.unwrap_or(Value::Null),
+            resolved: resolved.unwrap_or(Value::Null),
         }
     }
 
@@ -65,7 +65,7 @@ impl<'a> Variations<'a> {
     /// Pointers into the submitted sweep, each with what is wrong there.
     pub(super) fn at(&self, position: u64) -> Result<Variation, Vec<(String, String)>> {
         let overrides = self.changes(position);
-        match vary(&self.request.base, &self.preset, &overrides) {
+        match vary(&self.request.base, &self.resolved, &overrides) {
             Ok(resolved) => Ok(Variation {
                 overrides,
                 estimate: Estimate::of(&resolved),
@@ -95,10 +95,10 @@ fn combination(grid: &BTreeMap<String, Vec<Value>>, mut position: u64) -> Change
 }
 
 /// Resolves the base with its changes.
-fn vary(base: &Value, preset: &Value, overrides: &Changes) -> Result<Resolved, Vec<Fault>> {
+fn vary(base: &Value, resolved: &Value, overrides: &Changes) -> Result<Resolved, Vec<Fault>> {
     let mut document = base.clone();
     let set = |(pointer, value): (&String, &Value)| {
-        let set = patch::set(&mut document, preset, pointer, value.clone());
+        let set = patch::set(&mut document, resolved, pointer, value.clone());
         Some(Fault::new(pointer.clone(), set.err()?))
     };
     let faults: Vec<Fault> = overrides.iter().filter_map(set).collect();
@@ -131,3 +131,6 @@ fn in_sweep(fault: Fault, index: u64, overrides: &Changes, grid: bool) -> (Strin
     };
     (pointer_in_sweep, format!("{detail} ({pointer} of a job)"))
 }
+
+#[cfg(test)]
+mod tests;
