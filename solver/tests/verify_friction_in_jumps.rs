@@ -81,7 +81,6 @@ fn a_step_by_cycle_is_two_runs() {
 
 /// In gross slip, where mu itself hardly changes the slip, mu rising linearly over the run; a tenth of the tolerance, since jumps take
 /// the means of their cycles.
-#[test]
 fn the_energy_of_gross_slip_is_the_mean_coefficient_times_the_dose() {
     for (name, scene) in [
         ("sprung contact", sprung_contact()),
@@ -240,7 +239,6 @@ fn a_coefficient_may_begin_or_end_at_nothing() {
 }
 
 /// Blocks of one motion are one run, whichever way the coefficient changes; blocks of different motions resume to the same bits.
-#[test]
 fn changing_friction_goes_through_the_blocks_of_a_mission() {
     let mut scene = plated(0.02, &[Side::Receptacle], 500, 0.02);
     scene.receptacle.plating.truncate(1);
@@ -325,5 +323,20 @@ fn doses_of_a_curved_law_determine_the_coefficient() {
             assert!(off.abs() < 0.02, "{course:?} {name}: {off}");
             assert!(found.checks.friction_cone < 1e-8);
         }
+    }
+}
+
+/// Forms that take long.
+mod long {
+    #[test]
+    #[ignore = "long: takes 22 s"]
+    fn the_energy_of_gross_slip_is_the_mean_coefficient_times_the_dose() {
+        super::the_energy_of_gross_slip_is_the_mean_coefficient_times_the_dose();
+    }
+
+    #[test]
+    #[ignore = "long: takes 17 s"]
+    fn changing_friction_goes_through_the_blocks_of_a_mission() {
+        super::changing_friction_goes_through_the_blocks_of_a_mission();
     }
 }

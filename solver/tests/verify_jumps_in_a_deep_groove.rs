@@ -14,7 +14,6 @@ use crate::recorder::{area_between, largest_distance, solve};
 use crate::scenes::fuzz_button;
 use solver::record::Quantity;
 
-#[test]
 fn jumps_in_a_deep_groove_are_within_the_tolerance_of_single_cycles() {
     let tolerance = std::env::var("FRETWEAR_TOLERANCE");
     let tolerance = tolerance.map_or(0.05, |given| given.parse().expect("a tolerance"));
@@ -65,5 +64,14 @@ fn a_deep_groove_is_within_its_estimated_errors() {
         );
         let mut pairs = off.iter().zip(estimated);
         assert!(pairs.all(|(off, estimated)| off.abs() < estimated && estimated < tolerance));
+    }
+}
+
+/// Forms that take long.
+mod long {
+    #[test]
+    #[ignore = "long: takes 14 s"]
+    fn jumps_in_a_deep_groove_are_within_the_tolerance_of_single_cycles() {
+        super::jumps_in_a_deep_groove_are_within_the_tolerance_of_single_cycles();
     }
 }

@@ -54,7 +54,6 @@ fn both(scene: &Scene) -> [(Summary, Recorder); 2] {
     [scene, &single].map(|scene| solve(scene).expect("the wipe is solved"))
 }
 
-#[test]
 fn zones_agree_with_a_single_mesh() {
     let rates = |slider, receptacle| Sides { slider, receptacle };
     let crowned = {
@@ -139,4 +138,13 @@ fn a_contact_that_outgrows_its_zones_gets_wider_ones() {
     assert!(found.resolution.relocations > expected.resolution.relocations);
     let depth = |run: &Summary| run.last.slider.max_depth_mm;
     assert!((depth(&found) / depth(&expected) - 1.0).abs() < 1e-4);
+}
+
+/// Forms that take long.
+mod long {
+    #[test]
+    #[ignore = "long: takes 45 s"]
+    fn zones_agree_with_a_single_mesh() {
+        super::zones_agree_with_a_single_mesh();
+    }
 }

@@ -71,7 +71,6 @@ pub(crate) fn last_profiles(scene: &Scene) -> Sides<DepthProfile> {
 }
 
 /// Taken together, repetitions wear another profile by an error of first order in their number, within the tolerance of 2 %.
-#[test]
 fn repetitions_together_wear_like_single_ones() {
     for (name, slider) in [("pad", None), ("pad and tip", Some(0.1 * RATE))] {
         let scene = vibrated_and_wiped(60, slider);
@@ -226,7 +225,6 @@ fn a_contact_sticks_in_one_block_and_slides_in_the_other() {
 }
 
 /// The companions of a mission estimate its error.
-#[test]
 fn a_mission_states_its_error() {
     let mut scene = vibrated_and_wiped(40, None);
     scene.accuracy = Accuracy {
@@ -258,5 +256,20 @@ fn the_work_of_a_mission_is_foreseen() {
         );
         let ratio = expected.increments() / increments;
         assert!((0.5..2.0).contains(&ratio), "{ratio}");
+    }
+}
+
+/// Forms that take long.
+mod long {
+    #[test]
+    #[ignore = "long: takes 24 s"]
+    fn a_mission_states_its_error() {
+        super::a_mission_states_its_error();
+    }
+
+    #[test]
+    #[ignore = "long: takes 20 s"]
+    fn repetitions_together_wear_like_single_ones() {
+        super::repetitions_together_wear_like_single_ones();
     }
 }

@@ -32,7 +32,6 @@ fn stopped_and_passed(scene: &Scene, criterion: Criterion) -> (f64, f64) {
     (f64::from(cycles), life.cycles.expect("it is reached"))
 }
 
-#[test]
 fn a_life_is_the_same_whether_the_run_stops_or_goes_on() {
     let bottom = THICKNESS[0] + THICKNESS[1];
     for amplitude in AMPLITUDES {
@@ -106,5 +105,14 @@ fn a_base_of_any_rate_needs_few_computed_cycles() {
         if base.is_none() {
             assert!((deepest / 2e-3 - 1.0).abs() < 1e-9, "{deepest}");
         }
+    }
+}
+
+/// Forms that take long.
+mod long {
+    #[test]
+    #[ignore = "long: takes 17 s"]
+    fn a_life_is_the_same_whether_the_run_stops_or_goes_on() {
+        super::a_life_is_the_same_whether_the_run_stops_or_goes_on();
     }
 }

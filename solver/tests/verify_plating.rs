@@ -190,7 +190,6 @@ fn doses_add_up_beside_other_features() {
 }
 
 /// The jump control knows layers by their rates only: a crossing within a jump is part of its implicit step.
-#[test]
 fn layers_of_a_short_stroke_converge_with_the_tolerance() {
     let sides = &Side::BOTH[..];
     let run = |tolerance| check_dose("convergence", &plated(0.004, sides, 4_000, tolerance)).1;
@@ -230,5 +229,14 @@ fn layers_of_one_rate_wear_as_the_bare_body() {
             );
             assert!(apart < 1e-6, "{apart}");
         }
+    }
+}
+
+/// Forms that take long.
+mod long {
+    #[test]
+    #[ignore = "long: takes 13 s"]
+    fn layers_of_a_short_stroke_converge_with_the_tolerance() {
+        super::layers_of_a_short_stroke_converge_with_the_tolerance();
     }
 }

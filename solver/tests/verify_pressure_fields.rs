@@ -35,7 +35,6 @@ fn snapshots(scene: &Scene) -> Vec<Snapshot> {
     reported.filter(|snapshot| snapshot.cycle > 0).collect()
 }
 
-#[test]
 fn pressures_along_a_scar_are_those_of_single_cycles() {
     let short_after_long = |mut scene: Scene| {
         scene.output.snapshots_at_cycles = vec![997, 1_000];
@@ -73,5 +72,14 @@ fn pressures_along_a_scar_are_those_of_single_cycles() {
                 assert!(off < bound, "{name}: {off}");
             }
         }
+    }
+}
+
+/// Forms that take long.
+mod long {
+    #[test]
+    #[ignore = "long: takes 19 s"]
+    fn pressures_along_a_scar_are_those_of_single_cycles() {
+        super::pressures_along_a_scar_are_those_of_single_cycles();
     }
 }

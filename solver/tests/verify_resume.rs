@@ -141,7 +141,6 @@ fn a_continuous_run_resumes_to_the_same_bits() {
     resumes_to_the_same_bits("continuous", &scene, 6);
 }
 
-#[test]
 fn a_mission_resumes_to_the_same_bits() {
     let scene = vibrated_and_wiped(12, Some(1e-7));
     let (summary, _) = resumes_to_the_same_bits("mission", &scene, 12);
@@ -284,5 +283,14 @@ fn a_stop_at_any_event_loses_nothing() {
             bits_after(cycle, &rest, &resumed) == bits_after(cycle, &whole.recorder, &summary),
             "other bits after a stop at event {remaining}"
         );
+    }
+}
+
+/// Forms that take long.
+mod long {
+    #[test]
+    #[ignore = "long: takes 18 s"]
+    fn a_mission_resumes_to_the_same_bits() {
+        super::a_mission_resumes_to_the_same_bits();
     }
 }

@@ -238,7 +238,6 @@ fn surfaces_and_cuts_carry_the_load() {
 }
 
 /// No node leaves the middle plane, which no shear along z acts on; free ends bulge, and stress across them is far below that in the middle.
-#[test]
 fn free_ends_bulge_symmetrically() {
     let scene = with_fields(8, Ends::Free);
     let found = snapshots(&scene);
@@ -259,5 +258,14 @@ fn free_ends_bulge_symmetrically() {
             along(end)
         );
         assert!(bulge > 0.0 && along(end) < 0.5 * along(middle));
+    }
+}
+
+/// Forms that take long.
+mod long {
+    #[test]
+    #[ignore = "long: takes 18 s"]
+    fn free_ends_bulge_symmetrically() {
+        super::free_ends_bulge_symmetrically();
     }
 }

@@ -8,7 +8,6 @@ use std::ops::ControlFlow;
 
 /// The ends concern lengths of some heights, whatever the width: what they take off the load, and what they add to the approach and to the load in
 /// the middle, falls with the inverse of the width. 0.6 a doubling, and 1 % at 13 heights of the block.
-#[test]
 fn wide_bodies_are_plane_strain_in_the_middle() {
     let mut excess = Vec::new();
     for width_mm in [0.2, 0.4, 0.8] {
@@ -169,4 +168,13 @@ fn scenes_that_extruded_bodies_do_not_describe_are_refused() {
         scene.layers = 40;
     });
     assert!(matches!(large, ExtrudedError::TooLarge { .. }), "{large}");
+}
+
+/// Forms that take long.
+mod long {
+    #[test]
+    #[ignore = "long: takes 10 s"]
+    fn wide_bodies_are_plane_strain_in_the_middle() {
+        super::wide_bodies_are_plane_strain_in_the_middle();
+    }
 }

@@ -141,7 +141,6 @@ fn sections_of_the_suite_run_between_free_ends() {
 }
 
 /// Motion that begins the other way wears the mirror image: 1e-9.
-#[test]
 fn mirrored_motion_wears_the_mirror_image() {
     let run = |sign: f64| {
         let mut scene = in_single_cycles(button(Ends::Free, (4, 1.5), 3));
@@ -166,7 +165,6 @@ fn mirrored_motion_wears_the_mirror_image() {
 }
 
 /// Bodies that are condensed again as they wear, each section with its own heights: of held ones as in the plane, 1e-9.
-#[test]
 fn relocated_bodies_follow_their_own_surfaces() {
     let worn = |ends| {
         let mut scene = in_single_cycles(button(ends, (4, 1.5), 64));
@@ -199,4 +197,19 @@ fn relocated_bodies_follow_their_own_surfaces() {
     assert!(found.relocations > 1 && free.relocations > 1);
     assert!(off < 1e-9);
     assert!(balance.slider.abs() < 1e-10 && balance.receptacle.abs() < 1e-10);
+}
+
+/// Forms that take long.
+mod long {
+    #[test]
+    #[ignore = "long: takes 26 s"]
+    fn relocated_bodies_follow_their_own_surfaces() {
+        super::relocated_bodies_follow_their_own_surfaces();
+    }
+
+    #[test]
+    #[ignore = "long: takes 10 s"]
+    fn mirrored_motion_wears_the_mirror_image() {
+        super::mirrored_motion_wears_the_mirror_image();
+    }
 }
