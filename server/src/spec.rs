@@ -56,6 +56,9 @@ pub(crate) use rated_life::RatedMatings;
 pub(crate) use suggestion::did_you_mean;
 pub(crate) use system::definition as system_definition;
 
+/// Mark at the beginning of a file that editors of Windows write; parsers of JSON may ignore it (RFC 8259, 8.1).
+const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
+
 /// A specification with every default filled in, and its scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Resolved {
@@ -95,6 +98,7 @@ pub enum Refused {
 /// # Errors
 /// [`Refused`] with the pointer of every fault.
 pub fn read(bytes: &[u8]) -> Result<Resolved, Refused> {
+    let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
     let (spec, mut unknown) = match Spec::read(bytes) {
         Ok(read) => read,
         Err(error) => {

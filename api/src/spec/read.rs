@@ -1,5 +1,7 @@
 //! Parses a [`Spec`]: all unknown fields at once, or the place of a parse error.
 
+mod wording;
+
 use serde::Deserialize;
 use serde_ignored::Path as IgnoredPath;
 use serde_json::Value;
@@ -10,7 +12,7 @@ use crate::problem::Fault;
 
 /// The bytes are no specification: malformed JSON, a number out of range, or a wrong type.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{detail} at line {line}, column {column}{}", at_pointer(.pointer))]
+#[error("line {line}, column {column}{}: {detail}", at_pointer(.pointer))]
 pub struct ParseError {
     /// JSON pointer of the value; empty for malformed JSON.
     pub pointer: String,
@@ -30,6 +32,9 @@ impl Spec {
     /// # Errors
     /// [`ParseError`] for malformed JSON, a wrong type, a missing `system.kind`, or a field given twice.
     pub fn read(bytes: &[u8]) -> Result<(Self, Vec<Fault>), ParseError> {
+        if let Some(error) = no_object(bytes) {
+            return Err(error);
+        }
         let mut faults = Vec::new();
         let mut json = serde_json::Deserializer::from_slice(bytes);
         let mut track = Track::new();
@@ -42,8 +47,8 @@ impl Spec {
             };
             Self::deserialize(serde_ignored::Deserializer::new(tracked, &mut collect))
         };
-        let spec = spec.map_err(|error| parse_error(&error, &tracked_pointer(&track.path())))?;
-        json.end().map_err(|error| parse_error(&error, ""))?;
+        let spec = spec.map_err(|error| ParseError::of(&error, &tracked_pointer(&track.path())))?;
+        json.end().map_err(|error| ParseError::of(&error, ""))?;
         faults.extend(arrays_for_objects(bytes));
         Ok((spec, faults))
     }
@@ -92,23 +97,42 @@ fn at_pointer(pointer: &str) -> String {
     }
 }
 
-fn parse_error(error: &serde_json::Error, pointer: &str) -> ParseError {
-    let mut detail = error.to_string();
-    if let Some(end) = detail.rfind(" at line ") {
-        detail.truncate(end);
+/// The error of a document that is no object.
+fn no_object(bytes: &[u8]) -> Option<ParseError> {
+    let start = bytes.iter().position(|byte| !byte.is_ascii_whitespace());
+    let start = start.unwrap_or(bytes.len());
+    if bytes.get(start) == Some(&b'{') {
+        return None;
     }
-    // In malformed JSON the path depends on the reading order only.
-    let pointer = if error.is_data() {
-        pointer.to_owned()
-    } else {
-        String::new()
-    };
-    ParseError {
-        pointer,
-        detail,
-        line: error.line(),
-        column: error.column(),
+    let lines = || bytes[..start].split(|byte| *byte == b'\n');
+    Some(ParseError {
+        pointer: String::new(),
+        detail: format!(
+            r#"expected an object such as {{"system": {{"kind": "sd_card"}}}}, found {}"#,
+            wording::of_document(&bytes[start..])
+        ),
+        line: lines().count(),
+        column: 1 + lines().next_back().map_or(0, <[u8]>::len),
         others: Vec::new(),
+    })
+}
+
+impl ParseError {
+    /// The error of a document, with the pointer of the value.
+    pub fn of(error: &serde_json::Error, pointer: &str) -> Self {
+        let mut detail = error.to_string();
+        if let Some(end) = detail.rfind(" at line ") {
+            detail.truncate(end);
+        }
+        // In malformed JSON the path depends on the reading order only.
+        let pointer = if error.is_data() { pointer } else { "" };
+        Self {
+            pointer: pointer.to_owned(),
+            detail: wording::of_type_error(&detail),
+            line: error.line(),
+            column: error.column(),
+            others: Vec::new(),
+        }
     }
 }
 

@@ -24,19 +24,7 @@ pub struct Variation {
 
 /// Reads a document with a specification in it.
 pub(in crate::batch) fn read<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Refused> {
-    serde_json::from_slice(bytes).map_err(|error| {
-        let mut detail = error.to_string();
-        if let Some(end) = detail.rfind(" at line ") {
-            detail.truncate(end);
-        }
-        Refused::Parse(ParseError {
-            pointer: String::new(),
-            detail,
-            line: error.line(),
-            column: error.column(),
-            others: Vec::new(),
-        })
-    })
+    serde_json::from_slice(bytes).map_err(|error| Refused::Parse(ParseError::of(&error, "")))
 }
 
 /// Returns the fault of a name that is too long, or that no database can store.

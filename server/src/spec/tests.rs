@@ -1,5 +1,7 @@
 //! Resolution of whole specifications.
 
+mod wrong_types;
+
 use super::*;
 use crate::estimate::Estimate;
 use api::spec::Provenance;

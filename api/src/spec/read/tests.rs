@@ -180,3 +180,96 @@ fn a_duplicate_key_in_a_map_is_refused() {
         assert_eq!(error.detail, format!("duplicate key `{key}`"));
     }
 }
+
+#[test]
+fn a_document_that_is_no_object_is_named() {
+    for (text, found, position) in [
+        ("", "nothing", (1, 1)),
+        (" \n\t\n", "nothing", (3, 1)),
+        ("[]", "a list", (1, 1)),
+        ("\n  [{\"system\": {}}]", "a list", (2, 3)),
+        ("null", "null", (1, 1)),
+        ("0.5", "a number", (1, 1)),
+        ("\"sd_card\"", "a text", (1, 1)),
+        (
+            "system:\n  kind: dimm\n",
+            "`system:`; a document in another language",
+            (1, 1),
+        ),
+        (
+            "[system]\nkind = \"dimm\"\n",
+            "`[system]`; a document in another language",
+            (1, 1),
+        ),
+        ("---\nsystem: {}", "`---`; a document", (1, 1)),
+    ] {
+        let error = refused(text);
+        let expected = format!(
+            "expected an object such as {{\"system\": {{\"kind\": \"sd_card\"}}}}, found {found}"
+        );
+        assert!(error.detail.starts_with(&expected), "{text}: {error}");
+        assert_eq!((error.line, error.column), position, "{text}");
+        assert_eq!(error.pointer, "", "{text}");
+    }
+    let long = refused(&"ä".repeat(10_000));
+    assert!(long.detail.len() < 400, "{long}");
+}
+
+#[test]
+fn a_wrong_type_says_what_is_expected_and_how_a_number_is_written() {
+    let alone = "; write the number alone, in the unit of the field's name";
+    let bare = "; write the number without quotation marks";
+    for (fields, expected) in [
+        (
+            r#""load":{"kind":"force","n":"0.5 N"}"#,
+            format!(r#"(/load/n): expected a number, found the text "0.5 N"{alone}"#),
+        ),
+        (
+            r#""load":{"kind":"force","n":"-5e-1"}"#,
+            format!(r#"(/load/n): expected a number, found the text "-5e-1"{bare}"#),
+        ),
+        (
+            r#""load":{"kind":"force","n":"some"}"#,
+            r#"(/load/n): expected a number, found the text "some""#.to_owned(),
+        ),
+        (
+            r#""load":{"kind":"force","n":", expected f64"}"#,
+            r#"(/load/n): expected a number, found the text ", expected f64""#.to_owned(),
+        ),
+        (
+            r#""cycles":"2000 cycles""#,
+            format!(r#"(/cycles): expected a count, found the text "2000 cycles"{alone}"#),
+        ),
+        (
+            r#""cycles":1.5"#,
+            "(/cycles): expected a count, found the number 1.5".to_owned(),
+        ),
+        (
+            r#""cycles":true"#,
+            "(/cycles): expected a count, found true".to_owned(),
+        ),
+        (
+            r#""name":7"#,
+            "(/name): expected a text, found the number 7".to_owned(),
+        ),
+        (
+            r#""stop":{}"#,
+            "(/stop): expected a list, found an object".to_owned(),
+        ),
+        (
+            r#""load":"0.5 N""#,
+            r#"(/load): expected an object, found the text "0.5 N""#.to_owned(),
+        ),
+        (
+            r#""labels":null"#,
+            "(/labels): expected an object, found null".to_owned(),
+        ),
+    ] {
+        let error =
+            refused(&format!("{{\"system\":{{\"kind\":\"dimm\"}},\n{fields}}}")).to_string();
+        assert!(
+            error.starts_with("line 2, column ") && error.contains(&expected),
+            "{error}"
+        );
+    }
+}
