@@ -26,8 +26,8 @@ const MAX_TEXT: usize = 200;
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum ListError {
     /// Not a status.
-    #[error("`{0}` is not a status")]
-    Status(String),
+    #[error("`{0}` is not a status; statuses are {1}")]
+    Status(String, String),
     /// Not a parameter of this list.
     #[error("`{0}` is not a parameter; parameters are {PARAMETERS}")]
     Unknown(String),
@@ -262,18 +262,27 @@ fn view(name: &str) -> Result<View, ListError> {
 }
 
 fn statuses(list: &str) -> Result<Vec<Status>, ListError> {
-    list.split(',')
-        .map(|name| Status::from_name(name).ok_or_else(|| ListError::Status(shortened(name))))
-        .collect()
+    let status = |name| {
+        Status::from_name(name)
+            .ok_or_else(|| ListError::Status(shortened(name), known::<Status>(name)))
+    };
+    list.split(',').map(status).collect()
 }
 
 fn system(name: &str) -> Result<String, ListError> {
     if SystemKind::NAMES.contains(&name) {
         return Ok(name.to_owned());
     }
-    let mut detail = SystemKind::NAMES.join(", ");
-    detail += &spec::did_you_mean(name, SystemKind::NAMES.iter().copied());
-    Err(ListError::System(shortened(name), detail))
+    Err(ListError::System(
+        shortened(name),
+        known::<SystemKind>(name),
+    ))
+}
+
+/// The names of an enum, and the one that was probably meant.
+fn known<T: StringEnum>(name: &str) -> String {
+    let meant = spec::did_you_mean(name, T::NAMES.iter().copied());
+    T::NAMES.join(", ") + &meant
 }
 
 fn time(text: &str) -> Result<i64, ListError> {

@@ -111,6 +111,28 @@ async fn a_page_token_belongs_to_its_filters() {
 }
 
 #[tokio::test]
+async fn unknown_names_list_the_known_ones() {
+    let service = Service::new().await;
+    for (query, detail) in [
+        (
+            "status=done",
+            "`done` is not a status; statuses are queued, running, succeeded, failed, cancelled",
+        ),
+        (
+            "status=queued,canceled",
+            "`canceled` is not a status; statuses are queued, running, succeeded, failed, cancelled; did you mean `cancelled`?",
+        ),
+        (
+            "system=fuzzbutton",
+            "`fuzzbutton` is not a kind of system; kinds are fuzz_button, sd_card, dimm, zif, cylinder_on_flat; did you mean `fuzz_button`?",
+        ),
+    ] {
+        let (_, _, problem) = service.get(&format!("/v1/jobs?{query}")).await;
+        assert_eq!(problem["detail"], detail, "{query}");
+    }
+}
+
+#[tokio::test]
 async fn invalid_filters_are_problems() {
     let service = Service::new().await;
     for query in [
