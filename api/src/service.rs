@@ -5,6 +5,9 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+/// Name of the program in the answer of `GET /readyz`, by which a probe tells it from other services.
+pub const SERVICE: &str = "fretwear";
+
 /// The service in a few figures.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct ServiceOverview {

@@ -6,6 +6,7 @@
 mod download;
 mod error;
 mod events;
+mod jobs;
 mod upload;
 mod worker_tokens;
 
@@ -15,17 +16,18 @@ use std::time::Duration;
 
 use api::job::Job;
 use api::problem::Problem;
-use api::service::Demand;
+use api::service::{Demand, SERVICE};
 use reqwest::header::{AUTHORIZATION, HeaderMap, HeaderValue, LOCATION, RETRY_AFTER};
 use reqwest::redirect::Policy;
 use reqwest::{Certificate, ClientBuilder, RequestBuilder, Response, StatusCode, Url};
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use uuid::Uuid;
 
 pub use download::Fetched;
 pub use error::ClientError;
 pub use events::Followed;
+pub(crate) use jobs::WrittenId;
 
 /// Longest time without a byte of an answer: the service sends a comment into idle streams more often.
 const READ_TIMEOUT: Duration = Duration::from_mins(1);
@@ -206,10 +208,21 @@ impl Client {
     /// Returns whether the service is ready; asks once.
     ///
     /// # Errors
-    /// [`ClientError`], also if it is not ready.
+    /// [`ClientError`], also if it is not ready, or another program answers.
     pub async fn check_ready(&self, timeout: Duration) -> Result<(), ClientError> {
+        #[derive(Deserialize)]
+        struct Ready {
+            service: String,
+        }
         let request = self.http.get(self.url("/readyz")).timeout(timeout);
-        self.send(request).await.map(drop)
+        let answer = self.send(request).await?.bytes().await;
+        let answer = answer.map_err(|cause| ClientError::unreachable(&self.base, cause))?;
+        let ready = serde_json::from_slice::<Ready>(&answer);
+        if ready.is_ok_and(|ready| ready.service == SERVICE) {
+            Ok(())
+        } else {
+            Err(ClientError::OtherService(self.base.clone()))
+        }
     }
 
     fn url(&self, path: &str) -> String {

@@ -7,6 +7,9 @@ use api::problem::Problem;
 
 use crate::store::IntegrityError;
 
+/// Largest number of ids that the message of an ambiguous one lists.
+const CANDIDATES_SHOWN: usize = 10;
+
 /// Why a request failed.
 #[derive(Debug, thiserror::Error)]
 pub enum ClientError {
@@ -61,6 +64,27 @@ pub enum ClientError {
     NoStream {
         /// The address.
         url: String,
+    },
+    /// Another program answers.
+    #[error("{0} is no service of fretwear")]
+    OtherService(String),
+    /// No id has this beginning or end.
+    #[error("no {kind} has an id that begins or ends with `{part}`")]
+    NoSuchId {
+        /// What the id is of.
+        kind: &'static str,
+        /// The beginning or end.
+        part: String,
+    },
+    /// Several ids have this beginning or end.
+    #[error("{} ids of a {kind} begin or end with `{part}`; write more of it:{}", .candidates.len(), lines(.candidates))]
+    AmbiguousId {
+        /// What the ids are of.
+        kind: &'static str,
+        /// The beginning or end.
+        part: String,
+        /// The ids with their names.
+        candidates: Vec<String>,
     },
     /// Several files could not be received.
     #[error("{} files could not be received, the first of them: {first}", .number)]
@@ -139,7 +163,8 @@ impl ClientError {
 
     /// Whether the service refused what was sent, which the user can correct.
     pub fn is_refused(&self) -> bool {
-        matches!(self, Self::Problem { problem, .. } if [400, 413, 415, 422].contains(&problem.status))
+        matches!(self, Self::AmbiguousId { .. })
+            || matches!(self, Self::Problem { problem, .. } if [400, 413, 415, 422].contains(&problem.status))
     }
 
     /// Whether the service does not accept this client at all.
@@ -164,6 +189,14 @@ impl ClientError {
             _ => None,
         }
     }
+}
+
+/// Lines below a message, the first of many.
+fn lines(candidates: &[String]) -> String {
+    let shown = candidates.iter().take(CANDIDATES_SHOWN);
+    let lines = shown.map(|candidate| format!("\n  {candidate}"));
+    let more = (candidates.len() > CANDIDATES_SHOWN).then(|| "\n  ..".to_owned());
+    lines.chain(more).collect()
 }
 
 /// A problem in words, with all faults.

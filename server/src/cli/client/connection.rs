@@ -10,7 +10,7 @@ use crate::cli::access;
 use crate::cli::runtime::block_on;
 use crate::cli::serve::until_signal;
 use crate::cli::terminal::{REFUSED, failed, write_err};
-use crate::client::{Client, ClientError};
+use crate::client::{Client, ClientError, WrittenId};
 
 /// Default address of the service.
 const SERVER: &str = "http://127.0.0.1:8080";
@@ -60,14 +60,34 @@ pub(super) fn interruptible<T>(
     })?
 }
 
+/// The id of a job that may be written in short.
+pub(super) fn job_id(client: &Client, written: &WrittenId) -> Result<Uuid, ExitCode> {
+    let found = interruptible(client.job_id(written), None)?;
+    found.map_err(|error| report(&error))
+}
+
 /// Reports an error; returns its exit code.
 pub(super) fn report(error: &ClientError) -> ExitCode {
-    let code = failed(error);
+    failed(error);
+    exit_code(error)
+}
+
+/// The same of a request with a document, which is named if the service refuses it.
+pub(super) fn report_of(source: &str, error: &ClientError) -> ExitCode {
+    if error.is_refused() {
+        failed(format_args!("{source}: {error}"));
+    } else {
+        failed(error);
+    }
+    exit_code(error)
+}
+
+fn exit_code(error: &ClientError) -> ExitCode {
     if error.is_refused() {
         ExitCode::from(REFUSED)
     } else if error.is_unreachable() {
         ExitCode::from(UNREACHABLE)
     } else {
-        code
+        ExitCode::FAILURE
     }
 }

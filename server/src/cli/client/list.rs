@@ -5,10 +5,6 @@ use comfy_table::Table;
 
 use crate::cli::client::connection::{ServerOptions, interruptible, report};
 use crate::cli::terminal::{Ended, printable, write_json, write_out};
-use crate::client::{Client, ClientError};
-
-/// Largest number of jobs of one answer.
-const PAGE: u32 = 500;
 
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct ListArguments {
@@ -18,12 +14,12 @@ pub(in crate::cli) struct ListArguments {
     /// This kind of system.
     #[arg(long)]
     system: Option<String>,
-    /// This label, as key:value; can be repeated, for jobs that have all of them.
-    #[arg(long)]
+    /// This label, as key=value or key:value; can be repeated, for jobs that have all of them.
+    #[arg(long, value_parser = label)]
     label: Vec<String>,
     /// Largest number of jobs.
     #[arg(long, default_value_t = 20)]
-    limit: u32,
+    limit: usize,
     /// Write the documents as JSON instead of a table.
     #[arg(long)]
     json: bool,
@@ -33,7 +29,8 @@ pub(in crate::cli) struct ListArguments {
 
 pub(super) fn run(arguments: &ListArguments) -> Ended {
     let client = arguments.server.client()?;
-    let jobs = interruptible(jobs(&client, arguments), None)?;
+    let filters = filters(arguments);
+    let jobs = interruptible(client.jobs(&filters, arguments.limit), None)?;
     let jobs = jobs.map_err(|error| report(&error))?;
     if arguments.json {
         return write_json(&jobs);
@@ -41,50 +38,25 @@ pub(super) fn run(arguments: &ListArguments) -> Ended {
     write_out(table(&jobs))
 }
 
-/// A page of the list: every job in short, as is asked for.
-#[derive(serde::Deserialize)]
-struct Page {
-    jobs: Vec<JobOverview>,
-    next_page_token: Option<String>,
-}
-
-/// Requests pages until there are enough jobs.
-async fn jobs(client: &Client, arguments: &ListArguments) -> Result<Vec<JobOverview>, ClientError> {
-    let (mut jobs, mut token) = (Vec::new(), None);
-    loop {
-        let left = arguments
-            .limit
-            .saturating_sub(u32::try_from(jobs.len()).unwrap_or(u32::MAX));
-        if left == 0 {
-            return Ok(jobs);
-        }
-        let options = options(arguments, left.min(PAGE), token);
-        let page: Page = client.get("/v1/jobs", &options).await?;
-        jobs.extend(page.jobs);
-        token = page.next_page_token;
-        if token.is_none() {
-            return Ok(jobs);
-        }
-    }
-}
-
-fn options(
-    arguments: &ListArguments,
-    limit: u32,
-    token: Option<String>,
-) -> Vec<(&'static str, String)> {
+/// The filters of the arguments.
+fn filters(arguments: &ListArguments) -> Vec<(&'static str, String)> {
     let given = [
-        ("limit", Some(limit.to_string())),
-        ("view", Some("short".to_owned())),
         ("status", arguments.status.clone()),
         ("system", arguments.system.clone()),
-        ("page_token", token),
     ];
     let labels = arguments.label.iter().map(|label| ("label", label.clone()));
     let given = given
         .into_iter()
         .filter_map(|(name, value)| Some((name, value?)));
     given.chain(labels).collect()
+}
+
+/// Reads `key=value` or `key:value`, as the service has it: the key ends at the first of both signs.
+fn label(text: &str) -> Result<String, &'static str> {
+    let (key, value) = text
+        .split_once([':', '='])
+        .ok_or("expected key=value or key:value")?;
+    Ok(format!("{key}:{value}"))
 }
 
 fn table(jobs: &[JobOverview]) -> Table {
@@ -115,4 +87,23 @@ fn table(jobs: &[JobOverview]) -> Table {
         ]);
     }
     table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::label;
+
+    #[test]
+    fn labels_have_an_equals_sign_or_a_colon() {
+        for (text, label_of_service) in [
+            ("lot=7", "lot:7"),
+            ("lot:7", "lot:7"),
+            ("formula=a:b", "formula:a:b"),
+            ("formula:a=b", "formula:a=b"),
+            ("lot=", "lot:"),
+        ] {
+            assert_eq!(label(text).as_deref(), Ok(label_of_service));
+        }
+        assert!(label("lot").is_err());
+    }
 }

@@ -1,6 +1,7 @@
 //! `GET /healthz` and `GET /readyz`: liveness and readiness checks.
 
 use api::problem::Problem;
+use api::service::SERVICE;
 use axum::Json;
 use axum::extract::State;
 use serde_json::{Value, json};
@@ -46,7 +47,7 @@ pub(crate) async fn readyz(State(app): State<App>) -> Result<Json<Value>, Proble
         parts.push((ProblemType::DISK_FULL, format!("disk: {shortage}")));
     }
     match (written, parts.first()) {
-        (Ok(()), None) => Ok(Json(json!({ "status": "ready" }))),
+        (Ok(()), None) => Ok(Json(json!({ "status": "ready", "service": SERVICE }))),
         (Err(error), None) => Err(error.into()),
         (written, Some(&(problem, _))) => {
             let written = written.err().map(|error| format!("database: {error}"));
@@ -58,6 +59,8 @@ pub(crate) async fn readyz(State(app): State<App>) -> Result<Json<Value>, Proble
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use crate::http::tests::Service;
     use crate::store;
 
@@ -65,7 +68,8 @@ mod tests {
     async fn a_working_service_is_alive_and_ready() {
         let service = Service::new().await;
         assert_eq!(service.get("/healthz").await.2["status"], "ok");
-        assert_eq!(service.get("/readyz").await.2["status"], "ready");
+        let (_, _, ready) = service.get("/readyz").await;
+        assert_eq!(ready, json!({"status": "ready", "service": "fretwear"}));
     }
 
     #[tokio::test]
