@@ -9,6 +9,7 @@ mod child;
 mod client;
 mod demo;
 mod export;
+mod listen;
 mod log;
 mod options;
 mod pilot;
@@ -22,15 +23,15 @@ mod table;
 mod terminal;
 mod work;
 
-use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use arguments::{
-    BenchArguments, CalibrateArguments, ChildArguments, DATABASE, LISTEN, LogFormat,
-    ServeArguments, WorkArguments,
+    BenchArguments, CalibrateArguments, ChildArguments, DATABASE, LogFormat, ServeArguments,
+    WorkArguments,
 };
 use clap::{CommandFactory, Parser, Subcommand};
+use listen::ListenAddress;
 
 use crate::worker::protocol::PROGRAM;
 
@@ -103,14 +104,14 @@ enum Command {
         #[arg(long)]
         exit: bool,
         /// Address to listen on; port 0 is any free port.
-        #[arg(long, default_value = "127.0.0.1:0")]
-        listen: SocketAddr,
+        #[arg(long, default_value = "127.0.0.1:0", value_parser = ListenAddress::resolve)]
+        listen: ListenAddress,
     },
     /// Check whether a service is ready; the exit code is 0 if it is.
     Probe {
-        /// Address of the service.
-        #[arg(long, env = "FRETWEAR_LISTEN", default_value = LISTEN)]
-        listen: SocketAddr,
+        /// Address of the service, as it was started with; there is no default, because another service may listen there.
+        #[arg(long, env = "FRETWEAR_LISTEN", value_parser = ListenAddress::resolve)]
+        listen: ListenAddress,
         /// The service has a certificate: HTTPS, whatever names the certificate has.
         #[arg(long, env = "FRETWEAR_TLS_CERTIFICATE")]
         tls_certificate: Option<PathBuf>,
@@ -203,11 +204,11 @@ pub fn main() -> ExitCode {
             cycle,
         } => export::run(&spec, cycle),
         Command::Bench(arguments) => bench::run(&arguments),
-        Command::Demo { exit, listen } => demo::run(listen, exit),
+        Command::Demo { exit, listen } => demo::run(listen.address, exit),
         Command::Probe {
             listen,
             tls_certificate,
-        } => probe::run(listen, tls_certificate.is_some()),
+        } => probe::run(listen.address, tls_certificate.is_some()),
         Command::Backup { into, database } => backup::run(&database, &into),
         Command::Verify {
             database,

@@ -141,7 +141,8 @@ async fn the_health_check_distinguishes_a_running_service_from_none() {
     let listen = server.base.trim_start_matches("http://").to_owned();
     let probe = || fretwear(folder.path(), &["probe", "--listen", &listen]);
     let ran = probe();
-    assert_eq!((ran.code, ran.stdout.trim()), (Some(0), "ready"));
+    let ready = format!("ready: {}", server.base);
+    assert_eq!((ran.code, ran.stdout.trim()), (Some(0), ready.as_str()));
     drop(server);
     assert_eq!(probe().code, Some(1));
 }

@@ -6,6 +6,7 @@
 )]
 
 mod access_token;
+mod addresses;
 mod alarms;
 mod api_fuzz;
 mod architecture;

@@ -70,12 +70,10 @@ pub(super) fn token(file: Option<&Path>) -> Result<Option<String>, AccessError> 
 }
 
 impl AccessOptions {
-    /// Returns the access rules; only a digest of the token stays in memory.
-    pub(super) fn access(&self) -> Result<Access, AccessError> {
+    /// Returns the access rules of a service that listens on an address of this name; only a digest of the token stays in memory.
+    pub(super) fn access(&self, name: Option<String>) -> Result<Access, AccessError> {
         let token = token(self.token_file.as_deref())?;
-        Ok(Access::new(
-            token.as_deref().map(str::trim),
-            &self.allowed_hosts,
-        )?)
+        let hosts: Vec<_> = self.allowed_hosts.iter().cloned().chain(name).collect();
+        Ok(Access::new(token.as_deref().map(str::trim), &hosts)?)
     }
 }

@@ -1,6 +1,5 @@
 //! Arguments of the commands with many options.
 
-use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -8,6 +7,7 @@ use api::spec::{Criterion, EnumValue, Part};
 
 use crate::bench::{against, predictions};
 use crate::cli::access::{AccessOptions, TlsOptions};
+use crate::cli::listen::ListenAddress;
 use crate::cli::options::{SolveOptions, WorkOptions};
 use crate::cli::terminal::failed;
 use crate::client::Client;
@@ -21,8 +21,8 @@ pub(super) const DATABASE: &str = "sqlite://fretwear.db";
 #[derive(Debug, clap::Args)]
 pub(super) struct ServeArguments {
     /// Address to listen on; must be a loopback address unless there is an access token.
-    #[arg(long, env = "FRETWEAR_LISTEN", default_value = LISTEN)]
-    pub(super) listen: SocketAddr,
+    #[arg(long, env = "FRETWEAR_LISTEN", default_value = LISTEN, value_parser = ListenAddress::resolve)]
+    pub(super) listen: ListenAddress,
     #[command(flatten)]
     pub(super) access: AccessOptions,
     #[command(flatten)]

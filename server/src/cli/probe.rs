@@ -12,14 +12,16 @@ const TIMEOUT: Duration = Duration::from_secs(4);
 
 pub(super) fn run(listen: SocketAddr, is_tls: bool) -> Ended {
     let address = local(listen);
+    let scheme = if is_tls { "https" } else { "http" };
+    let url = format!("{scheme}://{address}");
     let client = if is_tls {
-        Client::unverified(&format!("https://{address}"))
+        Client::unverified(&url)
     } else {
-        Client::new(&format!("http://{address}"), None, None)
+        Client::new(&url, None, None)
     };
     let client = client.map_err(failed)?;
     block_on(client.check_ready(TIMEOUT))?.map_err(failed)?;
-    write_out("ready")
+    write_out(format_args!("ready: {url}"))
 }
 
 /// Returns the address at which a local service with this listen address is reached.

@@ -11,14 +11,15 @@ use crate::service::{Config, Service};
 
 pub(super) fn run(arguments: ServeArguments) -> Ended {
     let program = std::env::current_exe().map_err(failed)?;
-    let access = arguments.access.access().map_err(failed)?;
+    let access = arguments.access.access(arguments.listen.name);
+    let access = access.map_err(failed)?;
     let tls = arguments.tls.read().map_err(failed)?;
     let objects = arguments.objects.as_deref().map(Objects::open);
     let objects = objects.transpose().map_err(failed)?;
     let (work, log) = (&arguments.work, arguments.log);
     allow_many_files();
     let config = Config {
-        listen: arguments.listen,
+        listen: arguments.listen.address,
         access,
         tls: tls.clone(),
         workers: work.workers(),
