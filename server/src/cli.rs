@@ -27,8 +27,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use arguments::{
-    BenchArguments, CalibrateArguments, ChildArguments, DATABASE, LogFormat, ServeArguments,
-    WorkArguments,
+    BenchArguments, CalibrateArguments, DATABASE, LogFormat, ServeArguments, WorkArguments,
 };
 use clap::{CommandFactory, Parser, Subcommand};
 use listen::ListenAddress;
@@ -153,9 +152,6 @@ enum Command {
     },
     /// Write the description of the HTTP interface (OpenAPI 3.1) to standard output.
     Openapi,
-    /// Solve the specification on standard input, as a service's child process.
-    #[command(hide = true)]
-    SolveChild(ChildArguments),
 }
 
 /// Formats of a deck.
@@ -167,7 +163,14 @@ enum DeckFormat {
 
 /// Runs the command of the arguments.
 pub fn main() -> ExitCode {
-    let command = Arguments::parse().command;
+    let ended = match child::arguments() {
+        Some(arguments) => child::run(&arguments),
+        None => run(Arguments::parse().command),
+    };
+    ended.err().unwrap_or(ExitCode::SUCCESS)
+}
+
+fn run(command: Command) -> terminal::Ended {
     let _log = match &command {
         Command::Serve(serve) => {
             log::log_panics();
@@ -182,11 +185,10 @@ pub fn main() -> ExitCode {
         | Command::Backup { .. }
         | Command::Verify { .. }
         | Command::Restore { .. }
-        | Command::SolveChild(_)
         | Command::Openapi => None,
         _ => Some(log::start("warn", LogFormat::Text)),
     };
-    let ended = match command {
+    match command {
         Command::Serve(serve) => serve::run(serve),
         Command::Work(work) => work::run(&work),
         Command::Pilot { engine } => pilot::run(&engine),
@@ -216,12 +218,10 @@ pub fn main() -> ExitCode {
             objects,
         } => backup::run_verify(&database, &files, objects.as_deref()),
         Command::Restore { from, database } => backup::run_restore(&from, &database),
-        Command::SolveChild(arguments) => child::run(&arguments),
         Command::Client(command) => client::run(command),
         Command::Completions { shell } => completions(shell),
         Command::Openapi => terminal::write_out(crate::http::openapi::text().trim_end()),
-    };
-    ended.err().unwrap_or(ExitCode::SUCCESS)
+    }
 }
 
 fn completions(shell: clap_complete::Shell) -> terminal::Ended {

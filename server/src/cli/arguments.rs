@@ -178,7 +178,8 @@ fn part(text: &str) -> Result<f64, String> {
     }
 }
 
-#[derive(Debug, clap::Args)]
+/// Arguments of a solving process.
+#[derive(Debug, clap::Parser)]
 pub(super) struct ChildArguments {
     /// Folder for its files.
     pub(super) folder: PathBuf,

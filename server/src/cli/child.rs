@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use api::job::Outcome;
+use clap::Parser;
 use nix::sys::resource::{Resource, setrlimit};
 use signal_hook::consts::SIGTERM;
 
@@ -18,12 +19,20 @@ use crate::export::files;
 use crate::export::files::FilesError;
 use crate::solve;
 use crate::solve::checkpoint::CheckpointPolicy;
-use crate::solve::protocol::{EXIT_FILE_NOT_WRITTEN, EXIT_ORPHANED, Input};
+use crate::solve::protocol::{COMMAND, EXIT_FILE_NOT_WRITTEN, EXIT_ORPHANED, Input};
 use crate::solve::{Failure, FieldsFile, Line};
 use crate::spec;
 
 /// Pause before a full disk is tried again.
 const DISK_PAUSE: Duration = Duration::from_millis(200);
+
+/// The arguments of a solving process, if this is one. Its command is no subcommand, so that help, suggestions and completions never
+/// name it.
+pub(super) fn arguments() -> Option<ChildArguments> {
+    let mut all = std::env::args_os().skip(1).peekable();
+    let is_child = all.peek().is_some_and(|command| command == COMMAND);
+    is_child.then(|| ChildArguments::parse_from(all))
+}
 
 pub(super) fn run(arguments: &ChildArguments) -> Ended {
     let stop = Arc::new(AtomicBool::new(false));

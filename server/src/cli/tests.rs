@@ -1,8 +1,10 @@
 //! Compares the tables of options in the README with the command line.
 
-use clap::{CommandFactory, Parser};
+use clap::{CommandFactory, Parser, ValueEnum};
 
 use crate::cli::Arguments;
+use crate::cli::arguments::ChildArguments;
+use crate::solve::protocol::COMMAND;
 
 const README: &str = include_str!("../../README.md");
 
@@ -60,6 +62,31 @@ fn the_readme_lists_every_option_with_its_variable_and_default() {
 #[test]
 fn the_command_line_is_consistent() {
     Arguments::command().debug_assert();
+    ChildArguments::command().debug_assert();
     assert!(Arguments::try_parse_from(["fretwear", "serve", "--attempts", "0"]).is_err());
     assert!(Arguments::try_parse_from(["fretwear", "serve", "--lease-s", "-1"]).is_err());
+}
+
+#[test]
+fn the_command_of_solving_processes_is_never_named() {
+    let error = Arguments::try_parse_from(["fretwear", "solv"]).expect_err("no command");
+    let error = error.to_string();
+    assert!(
+        error.contains("'solve'") && !error.contains(COMMAND),
+        "{error}"
+    );
+    let mut names = Arguments::command();
+    let help = names.render_long_help().to_string();
+    assert!(help.contains("solve") && !help.contains(COMMAND), "{help}");
+    let shells = clap_complete::Shell::value_variants();
+    assert!(!shells.is_empty());
+    for shell in shells {
+        let mut script = Vec::new();
+        clap_complete::generate(*shell, &mut names, "fretwear", &mut script);
+        let script = String::from_utf8(script).expect("text");
+        assert!(
+            script.contains("solve") && !script.contains(COMMAND),
+            "{shell}"
+        );
+    }
 }

@@ -18,7 +18,7 @@ use tracing::Instrument;
 
 use crate::solve::Line;
 use crate::solve::checkpoint::EncodedCheckpoint;
-use crate::solve::protocol::Input;
+use crate::solve::protocol::{COMMAND, Input};
 
 /// Longest line of a solving process, bytes: several times a snapshot with the largest allowed number of surface
 /// elements.
@@ -39,7 +39,7 @@ const CRASHES: [Signal; 5] = [SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV];
 /// How a solving process is started.
 #[derive(Debug)]
 pub(crate) struct SolveCommand<'a> {
-    /// The binary with the hidden subcommand `solve-child`.
+    /// The binary that has the command `solve-child`.
     pub(crate) program: &'a Path,
     /// Folder of the files that the process writes.
     pub(crate) folder: &'a Path,
@@ -126,7 +126,7 @@ impl SolveCommand<'_> {
     pub(crate) fn spawn(&self) -> std::io::Result<SolveProcess> {
         let every_ms = self.checkpoint_every.as_millis().to_string();
         let mut command = Command::new(self.program);
-        command.args(["solve-child", "--checkpoint-every-ms", &every_ms]);
+        command.args([COMMAND, "--checkpoint-every-ms", &every_ms]);
         command.args(["--threads", &self.threads.to_string()]);
         if let Some(limit) = self.memory_limit_mb {
             command.args(["--memory-limit-mb", &limit.to_string()]);

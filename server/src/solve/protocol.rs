@@ -15,6 +15,8 @@ use solver::record::CycleReport;
 
 use crate::solve::checkpoint::{Checkpoint, EncodedCheckpoint};
 
+/// The command of a solving process, its first argument.
+pub(crate) const COMMAND: &str = "solve-child";
 /// Exit code of a solving process whose supervisor has ended.
 pub(crate) const EXIT_ORPHANED: i32 = 3;
 /// Exit code of a solving process that could not write a file: not a failure of the solve, so the job is tried again.

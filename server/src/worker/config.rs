@@ -25,7 +25,7 @@ pub const REMOTE_LEASE: Duration = Duration::from_secs(30);
 /// Configuration of workers.
 #[derive(Debug, Clone)]
 pub struct WorkerConfig {
-    /// The binary with the hidden subcommand `solve-child`.
+    /// The binary that has the command `solve-child`.
     pub program: PathBuf,
     /// Length of a lease; it is renewed three times within.
     pub lease: Duration,
