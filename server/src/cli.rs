@@ -8,6 +8,7 @@ mod calibrate;
 mod child;
 mod client;
 mod demo;
+mod destination;
 mod export;
 mod listen;
 mod log;
@@ -18,6 +19,7 @@ mod probe;
 mod runtime;
 mod serve;
 mod solve;
+mod specification;
 mod study;
 mod table;
 mod terminal;
@@ -57,7 +59,7 @@ enum Command {
     },
     /// Solve one specification here, without a server.
     Solve {
-        /// The specification, JSON.
+        /// The specification, JSON; `-` is standard input.
         spec: PathBuf,
         /// Write summary, resolved specification and results as files into this folder.
         #[arg(long)]
@@ -65,7 +67,7 @@ enum Command {
     },
     /// Show what would be simulated and why.
     Plan {
-        /// The specification, JSON.
+        /// The specification, JSON; `-` is standard input.
         spec: PathBuf,
         /// Write the document as JSON instead of tables.
         #[arg(long)]
@@ -73,7 +75,7 @@ enum Command {
     },
     /// Solve one specification at many accuracies, and show the cost and error of each.
     Study {
-        /// The specification, JSON.
+        /// The specification, JSON; `-` is standard input.
         spec: PathBuf,
         /// Write table, picture and figures as files into this folder.
         #[arg(long)]
@@ -86,7 +88,7 @@ enum Command {
     Calibrate(CalibrateArguments),
     /// Write the model as an input deck for another code to standard output.
     Export {
-        /// The specification, JSON.
+        /// The specification, JSON; `-` is standard input.
         spec: PathBuf,
         /// Format: `inp` is read by Abaqus and CalculiX.
         #[arg(long, value_enum, default_value = "inp")]

@@ -1,7 +1,8 @@
 //! The binary under test.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output, Stdio};
 
 /// Exit code and output of a command.
 #[derive(Debug)]
@@ -43,6 +44,30 @@ pub fn fretwear(folder: &Path, arguments: &[&str]) -> Ran {
         .args(arguments)
         .output()
         .expect("the binary can be started");
+    ran(&output)
+}
+
+/// The same with a text on its standard input.
+///
+/// # Panics
+/// If it cannot be started.
+pub fn fretwear_reading(folder: &Path, arguments: &[&str], input: &str) -> Ran {
+    let mut child = Command::new(binary())
+        .current_dir(folder)
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the binary can be started");
+    let mut stdin = child.stdin.take().expect("a pipe was asked for");
+    // A command that refuses its arguments does not read it.
+    let _ = stdin.write_all(input.as_bytes());
+    drop(stdin);
+    ran(&child.wait_with_output().expect("it ends"))
+}
+
+fn ran(output: &Output) -> Ran {
     Ran {
         code: output.status.code(),
         stdout: String::from_utf8_lossy(&output.stdout).into_owned(),

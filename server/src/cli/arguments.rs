@@ -128,7 +128,7 @@ pub(super) struct BenchArguments {
 
 #[derive(Debug, clap::Args)]
 pub(super) struct CalibrateArguments {
-    /// The specification, JSON; the ratios of its wear coefficients are kept.
+    /// The specification, JSON, `-` is standard input; the ratios of its wear coefficients are kept.
     pub(super) spec: PathBuf,
     /// The rated cycles.
     #[arg(long, value_parser = clap::value_parser!(u64).range(rating::RATED_CYCLES))]

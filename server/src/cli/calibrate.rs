@@ -5,14 +5,16 @@ use comfy_table::Table;
 
 use crate::cli::arguments::CalibrateArguments;
 use crate::cli::terminal::{
-    Ended, failed, failed_at, refused, specification, spinner, write_err, write_json, write_out,
+    Ended, failed, failed_at, refused, spinner, write_err, write_json, write_out,
 };
+use crate::cli::{destination, specification};
 use crate::export::markdown;
 use crate::rating;
 use crate::rating::{RatingError, Request};
 
 pub(super) fn run(arguments: &CalibrateArguments) -> Ended {
-    let resolved = specification(&arguments.spec)?;
+    let resolved = specification::resolved(&arguments.spec)?;
+    arguments.out.as_deref().map_or(Ok(()), destination::file)?;
     let mut criterion = arguments.criterion.clone();
     if arguments.side.is_some() {
         criterion.side.clone_from(&arguments.side);
@@ -27,7 +29,7 @@ pub(super) fn run(arguments: &CalibrateArguments) -> Ended {
     let found = rating::coefficients(&request, &mut |run| spinner.set_message(run.to_owned()));
     spinner.finish_and_clear();
     let rating = found.map_err(|error| match error {
-        RatingError::Refused(error) => refused(&error),
+        RatingError::Refused(error) => refused(specification::name(&arguments.spec), &error),
         error => failed(error),
     })?;
     if let Some(path) = &arguments.out {

@@ -45,7 +45,7 @@ pub(super) fn run(arguments: &ChildArguments) -> Ended {
                 outcome: Outcome::NotConverged,
                 reason: error.to_string(),
             }))?;
-            return Err(refused(&error));
+            return Err(refused("standard input", &error));
         }
     };
     resolved.scene.threads = arguments.threads;

@@ -11,11 +11,12 @@ use solver::scene::Scene;
 use solver::sides::Sides;
 use solver::{SolveError, ale};
 
-use crate::cli::terminal::{Ended, failed, specification, write_out};
+use crate::cli::specification;
+use crate::cli::terminal::{Ended, failed, write_out};
 use crate::export::deck;
 
 pub(super) fn run(spec: &Path, cycle: u64) -> Ended {
-    let scene = specification(spec)?.scene;
+    let scene = specification::resolved(spec)?.scene;
     let extruded = ExtrudedScene::of(&scene);
     if scene.dimension.is_finite() && extruded.is_none() {
         return Err(failed(

@@ -7,13 +7,14 @@ use api::results::BlockExtent;
 use api::spec::{Criterion, EnumValue};
 use comfy_table::Table;
 
-use crate::cli::terminal::{Ended, specification, write_json, write_out};
+use crate::cli::specification;
+use crate::cli::terminal::{Ended, write_json, write_out};
 use crate::estimate::Estimate;
 use crate::estimate::machine::{CalibrationCache, cache_file};
 use crate::export::markdown;
 
 pub(super) fn run(spec: &Path, json: bool) -> Ended {
-    let resolved = specification(spec)?;
+    let resolved = specification::resolved(spec)?;
     let cache = CalibrationCache::open(cache_file());
     let machine = cache.get_or_measure().cloned();
     let plan = Estimate::of(&resolved).plan_with_restart(&resolved, machine.as_ref());

@@ -10,7 +10,8 @@ use indicatif::ProgressBar;
 use solver::record::CycleReport;
 
 use crate::cli::runtime::processors;
-use crate::cli::terminal::{Ended, bar, failed, specification_for, write_err, write_json};
+use crate::cli::specification;
+use crate::cli::terminal::{Ended, bar, failed, write_err, write_json};
 use crate::export::documents::Results;
 use crate::export::files;
 use crate::solve;
@@ -18,7 +19,7 @@ use crate::solve::{Failure, FieldsFile, Line};
 use crate::spec::Resolved;
 
 pub(super) fn run(spec: &Path, out: Option<&Path>) -> Ended {
-    let mut resolved = specification_for(spec, out)?;
+    let mut resolved = specification::resolved_for(spec, out)?;
     resolved.scene.threads = processors();
     let mut recorded = Recorded::default();
     let solved = solve(&resolved, &mut recorded);

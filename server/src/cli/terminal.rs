@@ -10,13 +10,12 @@ use api::problem::Fault;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
-use crate::spec;
-use crate::spec::{Refused, Resolved};
+use crate::spec::Refused;
 
 /// End of a command: the exit code of one that failed, which has been reported.
 pub(super) type Ended = Result<(), ExitCode>;
 
-/// Exit code of a refused specification.
+/// Exit code of a specification, file or folder that cannot be used: nothing was solved.
 pub(super) const REFUSED: u8 = 2;
 
 /// Writes a line on standard output; reports a failure and returns its exit code. A closed pipe (`| head`) is none.
@@ -61,9 +60,20 @@ pub(super) fn failed_at(path: &Path, cause: &std::io::Error) -> ExitCode {
     failed(format_args!("{}: {cause}", path.display()))
 }
 
-/// Reports a refused specification with all its faults; returns its exit code.
-pub(super) fn refused(refused: &Refused) -> ExitCode {
-    write_err(format_args!("fretwear: {refused}"));
+/// Reports what the user can correct; returns its exit code.
+pub(super) fn unusable(cause: impl Display) -> ExitCode {
+    write_err(format_args!("fretwear: {cause}"));
+    ExitCode::from(REFUSED)
+}
+
+/// Reports that a file or folder of the arguments cannot be used; returns its exit code.
+pub(super) fn unusable_at(path: &Path, cause: &std::io::Error) -> ExitCode {
+    unusable(format_args!("{}: {cause}", path.display()))
+}
+
+/// Reports a refused specification, which was read from `source`, with all its faults; returns its exit code.
+pub(super) fn refused(source: impl Display, refused: &Refused) -> ExitCode {
+    let code = unusable(format_args!("{source}: {refused}"));
     let faults = match refused {
         Refused::Parse(error) => &error.others,
         Refused::Faults(faults) => faults,
@@ -71,27 +81,7 @@ pub(super) fn refused(refused: &Refused) -> ExitCode {
     for Fault { pointer, detail } in faults {
         write_err(format_args!("  {pointer}: {detail}"));
     }
-    ExitCode::from(REFUSED)
-}
-
-/// Reads and resolves the specification in a file; reports a failure and returns its exit code.
-pub(super) fn specification(path: &Path) -> Result<Resolved, ExitCode> {
-    let bytes = std::fs::read(path).map_err(|cause| failed_at(path, &cause))?;
-    let resolved = spec::read(&bytes).map_err(|error| refused(&error))?;
-    for Fault { pointer, detail } in &resolved.warnings {
-        write_err(format_args!("fretwear: warning: {pointer}: {detail}"));
-    }
-    Ok(resolved)
-}
-
-/// The same, with a folder for the results. The folder is created before the solve, so that a failure to create it does
-/// not waste a finished run.
-pub(super) fn specification_for(path: &Path, out: Option<&Path>) -> Result<Resolved, ExitCode> {
-    let resolved = specification(path)?;
-    if let Some(folder) = out {
-        std::fs::create_dir_all(folder).map_err(|cause| failed_at(folder, &cause))?;
-    }
-    Ok(resolved)
+    code
 }
 
 /// Returns a progress bar of cycles on standard error; silent where standard error is no terminal.

@@ -4,14 +4,15 @@ use std::path::{Path, PathBuf};
 
 use uuid::Uuid;
 
-use crate::cli::client::connection::{ServerOptions, interruptible, report};
+use crate::cli::client::connection::{ServerOptions, interruptible, job_id, report};
+use crate::cli::destination;
 use crate::cli::terminal::{Ended, write_err};
-use crate::client::{Client, Fetched};
+use crate::client::{Client, Fetched, WrittenId};
 
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct FetchArguments {
-    /// The job.
-    id: Uuid,
+    /// The job; the first or last characters of its id are enough.
+    id: WrittenId,
     /// Names of the files; all of them unless given.
     names: Vec<String>,
     /// The folder, which is created.
@@ -22,8 +23,10 @@ pub(in crate::cli) struct FetchArguments {
 }
 
 pub(super) fn run(arguments: &FetchArguments) -> Ended {
+    destination::folder(&arguments.out)?;
     let client = arguments.server.client()?;
-    fetch(&client, arguments.id, &arguments.names, &arguments.out)
+    let id = job_id(&client, &arguments.id)?;
+    fetch(&client, id, &arguments.names, &arguments.out)
 }
 
 /// Writes files of a job into a folder; all of them if none is named.

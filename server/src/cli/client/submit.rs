@@ -4,14 +4,16 @@ use std::path::PathBuf;
 
 use uuid::Uuid;
 
-use crate::cli::client::connection::{ServerOptions, interruptible, report};
+use crate::cli::client::connection::{ServerOptions, interruptible, report_of};
 use crate::cli::client::{fetch, watch};
-use crate::cli::terminal::{Ended, failed_at, write_err, write_out};
+use crate::cli::specification::Document;
+use crate::cli::terminal::{Ended, write_err, write_out};
+use crate::cli::{destination, specification};
 use crate::http::idempotency_key;
 
 #[derive(Debug, clap::Args)]
 pub(in crate::cli) struct SubmitArguments {
-    /// The specification, JSON.
+    /// The specification, JSON; `-` is standard input.
     spec: PathBuf,
     #[command(flatten)]
     server: ServerOptions,
@@ -34,8 +36,9 @@ pub(in crate::cli) struct SubmitArguments {
 
 pub(super) fn run(arguments: &SubmitArguments) -> Ended {
     let client = arguments.server.client()?;
-    let path = &arguments.spec;
-    let specification = std::fs::read(path).map_err(|cause| failed_at(path, &cause))?;
+    let Document { name, json } = specification::read(&arguments.spec)?;
+    let out = arguments.out.as_deref();
+    out.map_or(Ok(()), destination::folder)?;
     let key = arguments.key.clone();
     let key = key.unwrap_or_else(|| Uuid::now_v7().to_string());
     let options = [
@@ -52,8 +55,8 @@ pub(super) fn run(arguments: &SubmitArguments) -> Ended {
         .into_iter()
         .filter_map(|(name, value)| Some((name, value?)))
         .collect();
-    let submitted = interruptible(client.submit(specification, &options, &key), None)?;
-    let job = submitted.map_err(|error| report(&error))?;
+    let submitted = interruptible(client.submit(json, &options, &key), None)?;
+    let job = submitted.map_err(|error| report_of(&name, &error))?;
     for warning in job.plan.iter().flat_map(|plan| &plan.warnings) {
         write_err(format_args!(
             "fretwear: warning: {}: {}",
@@ -66,7 +69,7 @@ pub(super) fn run(arguments: &SubmitArguments) -> Ended {
     // Standard output is for the summary.
     write_err(format_args!("job {}", job.id));
     let ended = interruptible(watch::watch(&client, job.id), Some(job.id))?;
-    match &arguments.out {
+    match out {
         // The results of a job that failed show why.
         Some(folder) => fetch::fetch(&client, job.id, &[], folder).and(ended),
         None => ended,

@@ -1,14 +1,17 @@
 //! `fretwear worker-token create|list|revoke`: tokens of remote workers.
 
+use std::fs::File;
+use std::io::Write;
+use std::os::unix::fs::OpenOptionsExt;
 use std::path::{Path, PathBuf};
 
 use api::worker::WorkerTokens;
 use clap::Subcommand;
 use comfy_table::Table;
-use uuid::Uuid;
 
 use crate::cli::client::connection::{ServerOptions, interruptible, report};
-use crate::cli::terminal::{Ended, failed, printable, write_out};
+use crate::cli::terminal::{Ended, failed_at, printable, unusable_at, write_out};
+use crate::client::WrittenId;
 use crate::export::markdown;
 
 /// What is done with tokens.
@@ -31,8 +34,8 @@ pub(in crate::cli) enum TokenAction {
     },
     /// Revoke a token: its workers are refused from now on.
     Revoke {
-        /// Its id.
-        id: Uuid,
+        /// Its id; the first or last characters are enough.
+        id: WrittenId,
         #[command(flatten)]
         server: ServerOptions,
     },
@@ -48,8 +51,12 @@ pub(super) fn run(action: &TokenAction) -> Ended {
         }
         TokenAction::Revoke { id, server } => {
             let client = server.client()?;
-            let revoked = interruptible(client.revoke_worker_token(*id), None)?;
-            revoked.map_err(|error| report(&error))?;
+            let revoke = async {
+                let id = client.worker_token_id(id).await?;
+                client.revoke_worker_token(id).await.map(|()| id)
+            };
+            let revoked = interruptible(revoke, None)?;
+            let id = revoked.map_err(|error| report(&error))?;
             write_out(format_args!("{id} revoked"))
         }
     }
@@ -57,15 +64,23 @@ pub(super) fn run(action: &TokenAction) -> Ended {
 
 fn create(name: &str, out: Option<&Path>, server: &ServerOptions) -> Ended {
     let client = server.client()?;
-    let made = interruptible(client.create_worker_token(name), None)?;
-    let made = made.map_err(|error| report(&error))?;
-    match out {
-        None => write_out(&made.token),
-        Some(path) => {
-            write_secret(path, &made.token).map_err(failed)?;
-            write_out(format_args!("{} {}", made.entry.id, path.display()))
-        }
+    // A token whose file cannot be written would be lost.
+    let file = out.map(|path| secret_file(path).map_err(|cause| unusable_at(path, &cause)));
+    let file = out.zip(file.transpose()?);
+    let made = interruptible(client.create_worker_token(name), None);
+    let made = made.and_then(|made| made.map_err(|error| report(&error)));
+    let Some((path, mut file)) = file else {
+        return write_out(&made?.token);
+    };
+    let written = made.and_then(|made| {
+        writeln!(file, "{}", made.token).map_err(|cause| failed_at(path, &cause))?;
+        write_out(format_args!("{} {}", made.entry.id, path.display()))
+    });
+    if written.is_err() {
+        // An empty file is no token.
+        let _ = std::fs::remove_file(path);
     }
+    written
 }
 
 fn table(listed: &WorkerTokens) -> Table {
@@ -82,15 +97,8 @@ fn table(listed: &WorkerTokens) -> Table {
     table
 }
 
-/// Writes a new file that only its owner can read.
-fn write_secret(path: &Path, token: &str) -> std::io::Result<()> {
-    use std::io::Write;
-    use std::os::unix::fs::OpenOptionsExt;
-
-    let mut file = std::fs::OpenOptions::new()
-        .write(true)
-        .create_new(true)
-        .mode(0o600)
-        .open(path)?;
-    writeln!(file, "{token}")
+/// Creates a file that only its owner can read.
+fn secret_file(path: &Path) -> std::io::Result<File> {
+    let mut options = File::options();
+    options.write(true).create_new(true).mode(0o600).open(path)
 }
