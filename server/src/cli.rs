@@ -10,6 +10,7 @@ mod client;
 mod demo;
 mod destination;
 mod export;
+mod figures;
 mod listen;
 mod log;
 mod options;
@@ -21,6 +22,7 @@ mod serve;
 mod solve;
 mod specification;
 mod study;
+mod summary;
 mod table;
 mod terminal;
 mod work;
@@ -29,7 +31,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use arguments::{
-    BenchArguments, CalibrateArguments, DATABASE, LogFormat, ServeArguments, WorkArguments,
+    BenchArguments, CalibrateArguments, DATABASE, LogFormat, ServeArguments, SolveArguments,
+    WorkArguments,
 };
 use clap::{CommandFactory, Parser, Subcommand};
 use listen::ListenAddress;
@@ -58,13 +61,7 @@ enum Command {
         engine: pilot::Engine,
     },
     /// Solve one specification here, without a server.
-    Solve {
-        /// The specification, JSON; `-` is standard input.
-        spec: PathBuf,
-        /// Write summary, resolved specification and results as files into this folder.
-        #[arg(long)]
-        out: Option<PathBuf>,
-    },
+    Solve(SolveArguments),
     /// Show what would be simulated and why.
     Plan {
         /// The specification, JSON; `-` is standard input.
@@ -83,6 +80,9 @@ enum Command {
         /// Budget of all runs together, processor seconds.
         #[arg(long, default_value_t = crate::batch::accuracy::BUDGET_S)]
         budget_s: f64,
+        /// Write the study as JSON instead of a table.
+        #[arg(long)]
+        json: bool,
     },
     /// Find the wear coefficients that a rated number of cycles implies.
     Calibrate(CalibrateArguments),
@@ -194,13 +194,14 @@ fn run(command: Command) -> terminal::Ended {
         Command::Serve(serve) => serve::run(serve),
         Command::Work(work) => work::run(&work),
         Command::Pilot { engine } => pilot::run(&engine),
-        Command::Solve { spec, out } => solve::run(&spec, out.as_deref()),
+        Command::Solve(arguments) => solve::run(&arguments),
         Command::Plan { spec, json } => plan::run(&spec, json),
         Command::Study {
             spec,
             out,
             budget_s,
-        } => study::run(&spec, out.as_deref(), budget_s),
+            json,
+        } => study::run(&spec, out.as_deref(), budget_s, json),
         Command::Calibrate(arguments) => calibrate::run(&arguments),
         Command::Export {
             spec,

@@ -53,7 +53,7 @@ fn solve_writes_summary_and_files() {
         "accuracy": {"preset": "draft", "overrides": {"cycle_jump": 1}},
         "output": {"snapshots_at_cycles": [1, 2]}
     });
-    let (output, folder) = solve(&study.to_string(), &["--out", "results"]);
+    let (output, folder) = solve(&study.to_string(), &["--json", "--out", "results"]);
     assert_eq!(
         output.status.code(),
         Some(0),

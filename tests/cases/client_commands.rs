@@ -57,7 +57,7 @@ async fn a_job_is_submitted_followed_and_fetched() {
         "the same key is the same job"
     );
     let id = submitted.stdout.trim();
-    let watched = client(folder, &server.base, &["watch", id]).await;
+    let watched = client(folder, &server.base, &["watch", id, "--json"]).await;
     assert_eq!(watched.code, Some(0), "{}", watched.stderr);
     let summary: Value = serde_json::from_str(&watched.stdout).expect("the summary");
     assert_eq!(summary["cycles_done"], 20);
@@ -217,7 +217,10 @@ async fn a_watch_survives_a_crash_of_the_service() {
     let (_, job) = server.submit(LONG.replace("1000000", "400")).await;
     let id = job["id"].as_str().expect("a job has an id").to_owned();
     let (watched, base, watched_id) = (folder.path().to_owned(), proxy.base.clone(), id.clone());
-    let watch = tokio::spawn(async move { client(&watched, &base, &["watch", &watched_id]).await });
+    let watch =
+        tokio::spawn(
+            async move { client(&watched, &base, &["watch", &watched_id, "--json"]).await },
+        );
     let cycle = |job: &Value| job["progress"]["cycle"].as_u64();
     server.job_when(&id, |job| cycle(job) >= Some(20)).await;
     server.signal(Signal::SIGKILL);

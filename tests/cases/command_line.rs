@@ -18,7 +18,10 @@ fn solve_follows_the_published_depths_and_writes_its_files() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let mccoll = spec("mccoll.json");
     let mccoll = mccoll.to_str().expect("the path is text");
-    let ran = fretwear(folder.path(), &["solve", mccoll, "--out", "results"]);
+    let ran = fretwear(
+        folder.path(),
+        &["solve", mccoll, "--json", "--out", "results"],
+    );
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     let summary: Value = serde_json::from_str(&ran.stdout).expect("the summary is JSON");
     let ratio = |side: &Value| {
@@ -84,7 +87,11 @@ fn the_smallest_specification_is_enough() {
     let minimal = spec("minimal.json");
     let ran = fretwear(
         folder.path(),
-        &["solve", minimal.to_str().expect("the path is text")],
+        &[
+            "solve",
+            minimal.to_str().expect("the path is text"),
+            "--json",
+        ],
     );
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     let summary: Value = serde_json::from_str(&ran.stdout).expect("the summary is JSON");

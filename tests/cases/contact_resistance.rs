@@ -33,7 +33,10 @@ fn column(table: &str, name: &str) -> Vec<f64> {
 fn the_resistance_of_a_filmed_contact_ends_its_life_and_its_run() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     std::fs::write(folder.path().join("spec.json"), filmed().to_string()).expect("a file");
-    let ran = fretwear(folder.path(), &["solve", "spec.json", "--out", "results"]);
+    let ran = fretwear(
+        folder.path(),
+        &["solve", "spec.json", "--json", "--out", "results"],
+    );
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     let summary: Value = serde_json::from_str(&ran.stdout).expect("a summary");
     assert_eq!(summary["outcome"], "stop_condition");
@@ -94,7 +97,7 @@ fn a_resistance_without_a_film_law_is_not_modelled_and_names_what_it_lacks() {
     spec["stop"] = json!([]);
     spec["cycles"] = json!(200);
     std::fs::write(folder.path().join("spec.json"), spec.to_string()).expect("a file");
-    let ran = fretwear(folder.path(), &["solve", "spec.json"]);
+    let ran = fretwear(folder.path(), &["solve", "spec.json", "--json"]);
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     let summary: Value = serde_json::from_str(&ran.stdout).expect("a summary");
     let entry = &summary["life"][0];

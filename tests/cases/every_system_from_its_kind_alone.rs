@@ -17,7 +17,7 @@ fn every_kind_ends_with_a_scar_of_its_load_and_sliding_distance() {
     for kind in ["fuzz_button", "sd_card", "dimm", "zif", "cylinder_on_flat"] {
         let spec = json!({"system": {"kind": kind}}).to_string();
         std::fs::write(folder.path().join("spec.json"), spec).expect("a file can be written");
-        let ran = fretwear(folder.path(), &["solve", "spec.json"]);
+        let ran = fretwear(folder.path(), &["solve", "spec.json", "--json"]);
         assert_eq!(ran.code, Some(0), "{kind}: {}", ran.stderr);
         let summary: Value = serde_json::from_str(&ran.stdout).expect("the summary is JSON");
         let (initial, block, tip) = (

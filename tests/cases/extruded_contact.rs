@@ -191,7 +191,7 @@ fn solved_spring(model: &Value, cycles: Option<u64>) -> Value {
         spring["output"] = json!({"snapshots_at_cycles": [cycles]});
     }
     std::fs::write(folder.path().join("spring.json"), spring.to_string()).expect("a file");
-    let ran = fretwear(folder.path(), &["solve", "spring.json"]);
+    let ran = fretwear(folder.path(), &["solve", "spring.json", "--json"]);
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     serde_json::from_str(&ran.stdout).expect("JSON")
 }

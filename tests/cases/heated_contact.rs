@@ -8,7 +8,10 @@ use tests::fretwear;
 
 fn solved(folder: &Path, spec: &Value) -> Value {
     std::fs::write(folder.join("spec.json"), spec.to_string()).expect("a file");
-    let ran = fretwear(folder, &["solve", "spec.json", "--out", "results"]);
+    let ran = fretwear(
+        folder,
+        &["solve", "spec.json", "--json", "--out", "results"],
+    );
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     serde_json::from_str(&ran.stdout).expect("a summary")
 }

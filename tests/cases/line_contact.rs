@@ -125,7 +125,10 @@ fn a_groove_as_deep_as_the_wire_ends_a_ring() {
     spec["cycles"] = json!(400);
     spec["accuracy"]["estimate_errors"] = json!(false);
     std::fs::write(folder.path().join("spec.json"), spec.to_string()).expect("a file");
-    let ran = fretwear(folder.path(), &["solve", "spec.json", "--out", "out"]);
+    let ran = fretwear(
+        folder.path(),
+        &["solve", "spec.json", "--json", "--out", "out"],
+    );
     let summary: Value = serde_json::from_str(&ran.stdout).expect("a summary");
     assert_eq!(summary["outcome"], "deeper_than_radius", "{}", ran.stderr);
     let cycles = number(&summary["cycles_done"]);
@@ -163,7 +166,7 @@ fn auto_simulates_what_a_crown_calls_for() {
     spec["cycles"] = json!(300);
     spec["accuracy"] = json!({"preset": "draft", "estimate_errors": false});
     std::fs::write(folder.path().join("spec.json"), spec.to_string()).expect("a file");
-    let ran = fretwear(folder.path(), &["solve", "spec.json"]);
+    let ran = fretwear(folder.path(), &["solve", "spec.json", "--json"]);
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     let summary: Value = serde_json::from_str(&ran.stdout).expect("a summary");
     let loads: Vec<f64> = summary["stations"]

@@ -119,7 +119,7 @@ fn a_mixed_mission_does_all_of_its_cycles() {
         let mut spec = weeks();
         spec["order"] = json!(order);
         std::fs::write(folder.path().join("weeks.json"), spec.to_string()).expect("a file");
-        let ran = fretwear(folder.path(), &["solve", "weeks.json"]);
+        let ran = fretwear(folder.path(), &["solve", "weeks.json", "--json"]);
         assert_eq!(ran.code, Some(0), "{}", ran.stderr);
         serde_json::from_str(&ran.stdout).expect("a summary")
     };

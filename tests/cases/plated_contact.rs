@@ -100,7 +100,7 @@ fn calibrated_coefficients_last_for_the_rated_cycles() {
     assert_eq!(twice["coefficients"].as_array().map(Vec::len), Some(6));
 
     // The written specification lasts for as long, by a run of its own.
-    let ran = fretwear(folder.path(), &["solve", "calibrated.json"]);
+    let ran = fretwear(folder.path(), &["solve", "calibrated.json", "--json"]);
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     let summary: Value = serde_json::from_str(&ran.stdout).expect("a summary");
     let cycles = number(&entry(&summary, "slider", "base_metal")["cycles"]);

@@ -107,7 +107,7 @@ fn life(folder: &Path, model: &Value) -> f64 {
         spec["load"]["width_mm"] = json!(0.8);
     }
     std::fs::write(folder.join("spec.json"), spec.to_string()).expect("a file");
-    let ran = fretwear(folder, &["solve", "spec.json"]);
+    let ran = fretwear(folder, &["solve", "spec.json", "--json"]);
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     let summary: Value = serde_json::from_str(&ran.stdout).expect("a summary");
     assert_eq!(summary["outcome"], "stop_condition");

@@ -20,7 +20,7 @@ fn card(law: &Value, cycles: u64) -> Value {
 
 fn solved(folder: &Path, spec: &Value) -> Value {
     std::fs::write(folder.join("spec.json"), spec.to_string()).expect("a file");
-    let ran = fretwear(folder, &["solve", "spec.json"]);
+    let ran = fretwear(folder, &["solve", "spec.json", "--json"]);
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     serde_json::from_str(&ran.stdout).expect("a summary")
 }

@@ -127,6 +127,18 @@ pub(super) struct BenchArguments {
 }
 
 #[derive(Debug, clap::Args)]
+pub(super) struct SolveArguments {
+    /// The specification, JSON; `-` is standard input.
+    pub(super) spec: PathBuf,
+    /// Write summary, resolved specification and results as files into this folder.
+    #[arg(long)]
+    pub(super) out: Option<PathBuf>,
+    /// Write the summary as JSON instead of tables.
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+#[derive(Debug, clap::Args)]
 pub(super) struct CalibrateArguments {
     /// The specification, JSON, `-` is standard input; the ratios of its wear coefficients are kept.
     pub(super) spec: PathBuf,

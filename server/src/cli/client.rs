@@ -1,7 +1,7 @@
 //! Commands that use a service elsewhere: `submit`, `list`, `watch`, `fetch`, `cancel`, `retry` and `worker-token`.
 //!
-//! Exit codes: 0, the job succeeded, or what was asked for was done; 1, the job failed, or another error; 2, the service
-//! refused the request; 3, the job was cancelled; 4, the service could not be reached; 130, interrupted (Ctrl-C).
+//! Exit codes: 0, the job succeeded, or what was asked for was done; 1, the job failed, or another error; 2, the
+//! arguments cannot be used, or the service refused the request; 3, the job was cancelled; 4, the service could not be reached; 130, interrupted (Ctrl-C).
 
 mod connection;
 mod control;
@@ -12,9 +12,7 @@ mod watch;
 mod worker_token;
 
 use clap::Subcommand;
-use uuid::Uuid;
 
-use crate::cli::client::connection::ServerOptions;
 use crate::cli::client::control::Action;
 use crate::cli::terminal::Ended;
 
@@ -28,12 +26,7 @@ pub(super) enum ClientCommand {
     /// List the newest jobs of a service.
     List(list::ListArguments),
     /// Follow a job with a progress bar to its end; Ctrl-C leaves it running.
-    Watch {
-        /// The job.
-        id: Uuid,
-        #[command(flatten)]
-        server: ServerOptions,
-    },
+    Watch(watch::WatchArguments),
     /// Write the files of a job into a folder, and compare their SHA-256.
     Fetch(fetch::FetchArguments),
     /// Cancel jobs; results computed so far remain.
@@ -49,7 +42,7 @@ pub(super) fn run(command: ClientCommand) -> Ended {
     match command {
         ClientCommand::Submit(arguments) => submit::run(&arguments),
         ClientCommand::List(arguments) => list::run(&arguments),
-        ClientCommand::Watch { id, server } => watch::run(id, &server),
+        ClientCommand::Watch(arguments) => watch::run(&arguments),
         ClientCommand::Fetch(arguments) => fetch::run(&arguments),
         ClientCommand::Cancel(arguments) => control::run(&arguments, Action::Cancel),
         ClientCommand::Retry(arguments) => control::run(&arguments, Action::Retry),

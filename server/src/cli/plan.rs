@@ -4,9 +4,9 @@ use std::path::Path;
 
 use api::plan::{Plan, PlanDocument, PlannedEffect, RatedLife};
 use api::results::BlockExtent;
-use api::spec::{Criterion, EnumValue};
 use comfy_table::Table;
 
+use crate::cli::figures::{number, percent, until};
 use crate::cli::specification;
 use crate::cli::terminal::{Ended, write_json, write_out};
 use crate::estimate::Estimate;
@@ -64,10 +64,6 @@ fn value(effect: &PlannedEffect) -> String {
     }
 }
 
-fn percent(share: f64) -> String {
-    number(100.0 * share)
-}
-
 /// What each value is, and the reasons.
 fn reasons(plan: &Plan) -> String {
     let lines = plan.effects.iter().map(|effect| {
@@ -80,19 +76,6 @@ fn reasons(plan: &Plan) -> String {
         format!("\n{effect}: {reason}\n    value: {indicator}")
     });
     lines.collect()
-}
-
-/// A number with four digits or more, at any scale.
-fn number(value: f64) -> String {
-    if value.fract() == 0.0 {
-        format!("{value:.0}")
-    } else if value.abs() >= 100.0 {
-        format!("{value:.1}")
-    } else if value.abs() >= 0.1 {
-        format!("{value:.4}")
-    } else {
-        format!("{value:.3e}")
-    }
 }
 
 /// Blocks of a mission over all repetitions.
@@ -152,19 +135,6 @@ fn lives(plan: &Plan) -> Table {
         ]);
     }
     table
-}
-
-/// A criterion with its layer, part or depth.
-fn until(criterion: &Criterion) -> String {
-    let kind = match &criterion.kind {
-        EnumValue::Known(kind) => kind.as_str(),
-        EnumValue::Unknown(text) => text,
-    };
-    let layer = criterion.layer.map(|layer| format!(", layer {layer}"));
-    let fraction = criterion.fraction.map(|part| format!(", {}", number(part)));
-    let depth = criterion.mm.map(|mm| format!(", {} mm", number(mm)));
-    let details = [layer, fraction, depth].into_iter().flatten();
-    details.fold(kind.to_owned(), |text, detail| text + &detail)
 }
 
 fn estimates(plan: &Plan) -> Table {

@@ -1,7 +1,6 @@
-//! `fretwear solve SPEC [--out DIR]`: no server; progress on standard error, the summary on standard output.
+//! `fretwear solve SPEC [--out DIR]`: no server; progress on standard error, tables or the summary on standard output.
 
 use std::ops::ControlFlow;
-use std::path::Path;
 use std::process::ExitCode;
 
 use api::job::Outcome;
@@ -9,17 +8,20 @@ use api::results::{Snapshot, Summary};
 use indicatif::ProgressBar;
 use solver::record::CycleReport;
 
+use crate::cli::arguments::SolveArguments;
 use crate::cli::runtime::processors;
-use crate::cli::specification;
-use crate::cli::terminal::{Ended, bar, failed, write_err, write_json};
+use crate::cli::summary::Format;
+use crate::cli::terminal::{Ended, bar, failed, write_err};
+use crate::cli::{specification, summary};
 use crate::export::documents::Results;
 use crate::export::files;
 use crate::solve;
 use crate::solve::{Failure, FieldsFile, Line};
 use crate::spec::Resolved;
 
-pub(super) fn run(spec: &Path, out: Option<&Path>) -> Ended {
-    let mut resolved = specification::resolved_for(spec, out)?;
+pub(super) fn run(arguments: &SolveArguments) -> Ended {
+    let (out, format) = (arguments.out.as_deref(), Format::json_if(arguments.json));
+    let mut resolved = specification::resolved_for(&arguments.spec, out)?;
     resolved.scene.threads = processors();
     let mut recorded = Recorded::default();
     let solved = solve(&resolved, &mut recorded);
@@ -34,12 +36,12 @@ pub(super) fn run(spec: &Path, out: Option<&Path>) -> Ended {
         if let Err(error) = files::write(folder, &results, &recorded.fields) {
             if let Ok(summary) = &solved {
                 // The command fails in any case.
-                let _ = report(summary);
+                let _ = report(&resolved, summary, format);
             }
             return Err(failed(error));
         }
     }
-    report(&solved.map_err(failed)?)
+    report(&resolved, &solved.map_err(failed)?, format)
 }
 
 #[derive(Default)]
@@ -80,11 +82,8 @@ fn record(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
     }
 }
 
-fn report(summary: &Summary) -> Ended {
-    write_json(summary)?;
-    for warning in &summary.warnings {
-        write_err(format_args!("fretwear: warning: {warning}"));
-    }
+fn report(resolved: &Resolved, summary: &Summary, format: Format) -> Ended {
+    summary::write(&resolved.spec, summary, format)?;
     if summary.outcome == Outcome::Stopped {
         write_err("fretwear: the run was stopped");
         return Err(ExitCode::FAILURE);

@@ -1,14 +1,14 @@
-//! `fretwear study SPEC [--out DIR]`: an accuracy study.
+//! `fretwear study SPEC [--out DIR] [--json]`: an accuracy study.
 
 use std::path::Path;
 
 use crate::batch::accuracy;
 use crate::batch::accuracy::{Request, RunPlanError, StudyError, report};
 use crate::cli::specification;
-use crate::cli::terminal::{Ended, failed, failed_at, refused, spinner, write_out};
+use crate::cli::terminal::{Ended, failed, failed_at, refused, spinner, write_json, write_out};
 use crate::estimate::machine::{CalibrationCache, cache_file};
 
-pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> Ended {
+pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64, json: bool) -> Ended {
     let resolved = specification::resolved_for(spec, out)?;
     let program = std::env::current_exe()
         .map_err(|cause| failed(format_args!("the path of this program: {cause}")))?;
@@ -26,10 +26,16 @@ pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64) -> Ended {
     let made = accuracy::make(&request, &mut |run| spinner.set_message(run.to_owned()));
     spinner.finish_and_clear();
     let study = made.map_err(|error| match error {
-        StudyError::RunPlan(RunPlanError::Refused(error)) => refused(specification::name(spec), &error),
+        StudyError::RunPlan(RunPlanError::Refused(error)) => {
+            refused(specification::name(spec), &error)
+        }
         error => failed(error),
     })?;
-    write_out(report::text(&study))?;
+    if json {
+        write_json(&study)?;
+    } else {
+        write_out(report::text(&study))?;
+    }
     let Some(folder) = out else {
         return Ok(());
     };

@@ -7,7 +7,8 @@ use uuid::Uuid;
 use crate::cli::client::connection::{ServerOptions, interruptible, report_of};
 use crate::cli::client::{fetch, watch};
 use crate::cli::specification::Document;
-use crate::cli::terminal::{Ended, write_err, write_out};
+use crate::cli::summary::Format;
+use crate::cli::terminal::{Ended, write_err, write_json, write_out};
 use crate::cli::{destination, specification};
 use crate::http::idempotency_key;
 
@@ -32,6 +33,9 @@ pub(in crate::cli) struct SubmitArguments {
     /// Follow the job and write its files into this folder, as `fetch` does.
     #[arg(long)]
     out: Option<PathBuf>,
+    /// Write the job, or the summary of a job that is followed, as JSON.
+    #[arg(long)]
+    json: bool,
 }
 
 pub(super) fn run(arguments: &SubmitArguments) -> Ended {
@@ -64,11 +68,16 @@ pub(super) fn run(arguments: &SubmitArguments) -> Ended {
         ));
     }
     if !arguments.watch && arguments.out.is_none() {
-        return write_out(job.id);
+        return if arguments.json {
+            write_json(&job)
+        } else {
+            write_out(job.id)
+        };
     }
     // Standard output is for the summary.
     write_err(format_args!("job {}", job.id));
-    let ended = interruptible(watch::watch(&client, job.id), Some(job.id))?;
+    let format = Format::json_if(arguments.json);
+    let ended = interruptible(watch::watch(&client, job.id, format), Some(job.id))?;
     match out {
         // The results of a job that failed show why.
         Some(folder) => fetch::fetch(&client, job.id, &[], folder).and(ended),

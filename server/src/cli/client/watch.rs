@@ -1,4 +1,4 @@
-//! `fretwear watch ID`: follows a job to its end; the summary on standard output.
+//! `fretwear watch ID`: follows a job to its end; its tables or the summary on standard output.
 
 use std::process::ExitCode;
 
@@ -6,19 +6,39 @@ use api::event::Done;
 use api::job::Status;
 use uuid::Uuid;
 
-use crate::cli::client::connection::{CANCELLED, ServerOptions, interruptible, report};
-use crate::cli::terminal::{Ended, bar, failed, write_err, write_json};
-use crate::client::{Client, ClientError, Followed};
+use crate::cli::client::connection::{CANCELLED, ServerOptions, interruptible, job_id, report};
+use crate::cli::summary;
+use crate::cli::summary::Format;
+use crate::cli::terminal::{Ended, bar, failed, write_err};
+use crate::client::{Client, ClientError, Followed, WrittenId};
 
-pub(super) fn run(id: Uuid, server: &ServerOptions) -> Ended {
-    let client = server.client()?;
-    interruptible(watch(&client, id), Some(id))?
+#[derive(Debug, clap::Args)]
+pub(in crate::cli) struct WatchArguments {
+    /// The job; the first or last characters of its id are enough.
+    id: WrittenId,
+    /// Write the summary as JSON instead of tables.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    server: ServerOptions,
+}
+
+pub(super) fn run(arguments: &WatchArguments) -> Ended {
+    let client = arguments.server.client()?;
+    let id = job_id(&client, &arguments.id)?;
+    let format = Format::json_if(arguments.json);
+    interruptible(watch(&client, id, format), Some(id))?
 }
 
 /// Follows a job, and writes its summary.
-pub(super) async fn watch(client: &Client, id: Uuid) -> Ended {
+pub(super) async fn watch(client: &Client, id: Uuid, format: Format) -> Ended {
     let followed = follow(client, id).await;
-    ended(&followed.map_err(|error| report(&error))?)
+    let done = followed.map_err(|error| report(&error))?;
+    if let Some(summary) = &done.summary {
+        let job = client.job(id).await.map_err(|error| report(&error))?;
+        summary::write(&job.spec, summary, format)?;
+    }
+    ended(&done)
 }
 
 /// Follows a job to its end with a progress bar.
@@ -44,11 +64,8 @@ pub(in crate::cli) async fn follow(client: &Client, id: Uuid) -> Result<Done, Cl
     followed
 }
 
-/// Writes the summary of a job that has one; the exit code of its status.
+/// Reports how a job has ended, unless it has succeeded; the exit code of its status.
 fn ended(done: &Done) -> Ended {
-    if let Some(summary) = &done.summary {
-        write_json(summary)?;
-    }
     let reason = done.status_reason.as_deref().unwrap_or("no reason given");
     match done.status {
         Status::Succeeded => Ok(()),
