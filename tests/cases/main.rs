@@ -35,6 +35,7 @@ mod heated_contact;
 mod hostile_inputs;
 mod line_contact;
 mod load;
+mod long_solve_in_a_terminal;
 mod main_job;
 mod many_jobs;
 mod many_workers;

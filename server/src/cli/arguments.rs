@@ -136,6 +136,9 @@ pub(super) struct SolveArguments {
     /// Write the summary as JSON instead of tables.
     #[arg(long)]
     pub(super) json: bool,
+    /// Start a solve that is expected to take more than an hour; only asked for in a terminal.
+    #[arg(long)]
+    pub(super) yes: bool,
 }
 
 #[derive(Debug, clap::Args)]

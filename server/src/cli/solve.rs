@@ -1,5 +1,6 @@
 //! `fretwear solve SPEC [--out DIR]`: no server; progress on standard error, tables or the summary on standard output.
 
+use std::io::IsTerminal;
 use std::ops::ControlFlow;
 use std::process::ExitCode;
 
@@ -9,19 +10,28 @@ use indicatif::ProgressBar;
 use solver::record::CycleReport;
 
 use crate::cli::arguments::SolveArguments;
+use crate::cli::figures::rounded;
 use crate::cli::runtime::processors;
 use crate::cli::summary::Format;
-use crate::cli::terminal::{Ended, bar, failed, write_err};
+use crate::cli::terminal::{Ended, bar, failed, unusable, write_err};
 use crate::cli::{specification, summary};
+use crate::estimate::Estimate;
+use crate::estimate::machine::{CalibrationCache, cache_file};
 use crate::export::documents::Results;
 use crate::export::files;
 use crate::solve;
 use crate::solve::{Failure, FieldsFile, Line};
 use crate::spec::Resolved;
 
+/// An hour, s: in a terminal, a solve that is expected to take more processor time is confirmed first.
+const HOUR_S: f64 = 3_600.0;
+
 pub(super) fn run(arguments: &SolveArguments) -> Ended {
     let (out, format) = (arguments.out.as_deref(), Format::json_if(arguments.json));
     let mut resolved = specification::resolved_for(&arguments.spec, out)?;
+    if !arguments.yes && is_interactive() {
+        confirm(&resolved)?;
+    }
     resolved.scene.threads = processors();
     let mut recorded = Recorded::default();
     let solved = solve(&resolved, &mut recorded);
@@ -42,6 +52,24 @@ pub(super) fn run(arguments: &SolveArguments) -> Ended {
         }
     }
     report(&resolved, &solved.map_err(failed)?, format)
+}
+
+/// Whether a user waits for the solve, rather than a script.
+fn is_interactive() -> bool {
+    std::io::stdin().is_terminal() && std::io::stderr().is_terminal()
+}
+
+/// Refuses a solve that is expected to take long on this machine.
+fn confirm(resolved: &Resolved) -> Ended {
+    let cache = CalibrationCache::open(cache_file());
+    let plan = Estimate::of(resolved).plan(resolved, cache.get_or_measure());
+    match plan.estimates.get("cpu_s") {
+        Some(seconds) if *seconds > HOUR_S => Err(unusable(format_args!(
+            "the solve is expected to take {} h of processor time on this machine; start it with --yes",
+            rounded(seconds / HOUR_S)
+        ))),
+        _ => Ok(()),
+    }
 }
 
 #[derive(Default)]
