@@ -2,6 +2,9 @@
 
 mod access;
 mod app;
+mod arrival;
+mod bodies;
+mod body_limits;
 mod compression;
 mod connections;
 mod disk_space;
@@ -56,8 +59,8 @@ const UNLIMITED: [&str; 3] = ["/healthz", "/readyz", "/v1/worker/claims"];
 pub fn router(app: App) -> Router {
     let access = middleware::from_fn_with_state(app.access.clone(), access::check);
     let worker_access = middleware::from_fn_with_state(app.clone(), worker_access::check);
-    let permits = Arc::new(Semaphore::new(MAX_REQUESTS));
-    let requests = middleware::from_fn_with_state(permits, limit_requests);
+    let requests = middleware::from_fn_with_state(app.clone(), bodies::admit);
+        .route_layer(requests)
     let disk_space = middleware::map_response_with_state(app.clone(), disk_space::explain);
     let metrics = Arc::clone(app.store.metrics());
     let observed = middleware::from_fn_with_state(metrics, observe);

@@ -1,6 +1,6 @@
 //! Requirement: malicious input is refused with a 4xx problem, at no more cost than reading it, and the service stays
 //! available: bodies of 50 MB, JSON 10 000 levels deep, numbers at the end of the range, a mesh of 1e9 elements, heads
-//! that never end, path traversal, 10 000 labels. No job is queued.
+//! that never end, bodies that never end, path traversal, 10 000 labels. No job is queued.
 
 use std::io::{ErrorKind, Read, Write};
 use std::net::TcpStream;
@@ -204,9 +204,7 @@ async fn endless_heads_are_disconnected_while_others_are_answered() {
 #[tokio::test]
 async fn thousands_of_idle_connections_keep_no_request_waiting() {
     const IDLE: u64 = 5_000;
-    // Other tests of this process need some too.
-    let (_, most) = getrlimit(Resource::RLIMIT_NOFILE).expect("a limit");
-    setrlimit(Resource::RLIMIT_NOFILE, most, most).expect("a higher limit");
+    let most = allow_many_files();
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     let mut idle: Vec<TcpStream> = (0..IDLE.min(most / 2))
@@ -216,8 +214,60 @@ async fn thousands_of_idle_connections_keep_no_request_waiting() {
     alive_and_empty(&server).await;
     println!("answered in {:.3} s", began.elapsed().as_secs_f64());
     // They are not answered because idle connections timed out: those that are not the oldest are still open.
-    let newest = idle.last_mut().expect("a connection");
-    newest.set_nonblocking(true).expect("a mode");
-    let open = newest.read(&mut [0]).map_err(|error| error.kind());
-    assert_eq!(open, Err(ErrorKind::WouldBlock));
+    assert!(is_open(idle.last_mut().expect("a connection")));
+}
+
+/// Raises the limit on open files; other tests of this process need some, too.
+fn allow_many_files() -> u64 {
+    let (_, most) = getrlimit(Resource::RLIMIT_NOFILE).expect("a limit");
+    setrlimit(Resource::RLIMIT_NOFILE, most, most).expect("a higher limit");
+    most
+}
+
+/// Sends the head of a submission of 1 MiB and a part of its body on each of some connections.
+fn unfinished_bodies(server: &Server, count: u64, part: &[u8]) -> Vec<TcpStream> {
+    let most = allow_many_files();
+    let head = format!(
+        "POST /v1/jobs HTTP/1.1\r\nhost: 127.0.0.1\r\ncontent-type: application/json\r\ncontent-length: {}\r\n\r\n",
+        1 << 20
+    );
+    let one = || {
+        let mut stream = connection(server);
+        stream.write_all(head.as_bytes()).expect("a head");
+        // The service may give up one that it has no memory for.
+        let _ = stream.write_all(part);
+        stream
+    };
+    (0..count.min(most / 2)).map(|_| one()).collect()
+}
+
+fn is_open(stream: &mut TcpStream) -> bool {
+    stream.set_nonblocking(true).expect("a mode");
+    let read = stream.read(&mut [0]).map_err(|error| error.kind());
+    read == Err(ErrorKind::WouldBlock)
+}
+
+#[tokio::test]
+async fn a_thousand_unfinished_bodies_keep_no_request_waiting() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let mut unfinished = unfinished_bodies(&server, 1_100, b"{");
+    let began = std::time::Instant::now();
+    alive_and_empty(&server).await;
+    println!("answered in {:.3} s", began.elapsed().as_secs_f64());
+    // Nothing was answered because they timed out.
+    assert!(unfinished.iter_mut().all(is_open));
+}
+
+#[tokio::test]
+async fn unfinished_bodies_have_a_limited_memory() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let part = vec![b' '; (1 << 20) - 1];
+    let _unfinished = unfinished_bodies(&server, 300, &part);
+    // Another body needs memory and is received.
+    refused(&server, "[".repeat(1 << 19), 400).await;
+    alive_and_empty(&server).await;
+    let peak = server.peak_memory_mb();
+    assert!(peak < MEMORY_LIMIT_MB, "{peak} MB");
 }

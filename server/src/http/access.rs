@@ -18,7 +18,7 @@ use subtle::ConstantTimeEq;
 use crate::http::problem::ProblemType;
 
 /// Paths of remote workers, which have tokens of their own.
-const WORKER_FOLDER: &str = "/v1/worker/";
+pub(super) const WORKER_FOLDER: &str = "/v1/worker/";
 /// Minimum length of a token, characters: 16 random ones are some 90 bits.
 const MIN_TOKEN_LENGTH: usize = 16;
 /// Maximum length of a token, characters; it must fit into a header.

@@ -13,6 +13,9 @@ use crate::store::Store;
 use crate::supervision::Supervisor;
 
 /// Maximum number of waiting long polls; another one is answered at once, as if it had timed out.
+/// Maximum number of concurrent requests, over all connections; more wait. Event streams count until their response starts; long polls
+/// have a lower limit of their own.
+pub(super) const MAX_REQUESTS: usize = 1024;
 pub(super) const MAX_LONG_POLLS: usize = 768;
 /// Maximum number of open event streams.
 pub(super) const MAX_STREAMS: usize = 1024;
@@ -40,6 +43,8 @@ pub struct App {
     pub(super) expansion_permits: Arc<Semaphore>,
     pub(super) long_poll_permits: Arc<Semaphore>,
     pub(super) stream_permits: Arc<Semaphore>,
+    /// Permits of requests whose body has arrived.
+    pub(super) request_permits: Arc<Semaphore>,
     /// Processes with remote workers.
     pub(crate) workers: Arc<WorkerRegistry>,
 }
@@ -63,6 +68,7 @@ impl App {
             expansion_permits: Arc::new(Semaphore::new(MAX_EXPANSIONS)),
             long_poll_permits: Arc::new(Semaphore::new(MAX_LONG_POLLS)),
             stream_permits: Arc::new(Semaphore::new(MAX_STREAMS)),
+            request_permits: Arc::new(Semaphore::new(MAX_REQUESTS)),
             workers: Arc::default(),
         }
     }

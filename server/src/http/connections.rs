@@ -1,10 +1,12 @@
 //! The open connections: how many there may be, of one peer and of all, and which of them is closed for a new one.
 //!
-//! A connection without a request in progress is idle. Where there are too many, the one that has been idle the longest is
-//! closed: a client that opens thousands and sends nothing keeps no other one waiting.
+//! A connection without a request in progress is idle, and so is one with a body that arrives too slowly. Where there are too many,
+//! the one that has been idle the longest is closed: a client that opens thousands and sends nothing keeps no other one waiting.
+
+pub(super) mod arriving;
 
 use std::collections::BTreeMap;
-use std::net::IpAddr;
+use std::net::{IpAddr, Ipv6Addr};
 use std::pin::Pin;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::task::{Context, Poll};
@@ -15,6 +17,8 @@ use axum::response::Response;
 use hyper::body::{Frame, SizeHint};
 use tokio::sync::Notify;
 use tokio_util::sync::CancellationToken;
+
+use crate::http::arrival::Arrival;
 
 /// Time after the last frame of an answer was handed over in which it is sent to all but the slowest clients.
 const FLUSH_TIME: Duration = Duration::from_secs(5);
@@ -43,6 +47,8 @@ struct Entry {
     /// When the last request ended; none before the first.
     answered: Option<Instant>,
     opened: Instant,
+    /// The body of the request in progress, from its first byte until it is not needed any more.
+    body: Option<Arrival>,
     close: CancellationToken,
 }
 
@@ -81,8 +87,8 @@ impl Connections {
     }
 
     fn has_room(&self) -> bool {
-        let open = self.open();
-        open.len() < self.limits.all || open.values().any(Entry::is_idle)
+        let (open, now) = (self.open(), Instant::now());
+        open.len() < self.limits.all || open.values().any(|entry| entry.is_idle(now))
     }
 
     /// Adds a connection from an address, for which an idle one may be closed; `None` if the peer has too many.
@@ -94,18 +100,27 @@ impl Connections {
         } else if open.len() >= self.limits.all {
             close_longest_idle(&mut open, |_| true)?;
         }
-        let close = CancellationToken::new();
-        let entry = Entry {
-            peer,
-            requests: 0,
-            answered: None,
-            opened: Instant::now(),
-            close: close.clone(),
-        };
+        let entry = Entry::of(peer);
+        let close = entry.close.clone();
         open.insert(number, entry);
         Some(Connection {
             connections: Arc::clone(self),
             number,
+            close,
+        })
+    }
+
+    /// A connection that no other one is closed for.
+    pub(super) fn of_one() -> Arc<Connection> {
+        let entry = Entry::of(Ipv6Addr::UNSPECIFIED.into());
+        let close = entry.close.clone();
+        Arc::new(Connection {
+            connections: Arc::new(Self {
+                limits: ConnectionLimits { all: 1, peer: 1 },
+                open: Mutex::new(BTreeMap::from([(0, entry)])),
+                closed: Notify::new(),
+            }),
+            number: 0,
             close,
         })
     }
@@ -125,14 +140,29 @@ impl Connections {
 }
 
 impl Entry {
+    fn of(peer: IpAddr) -> Self {
+        Self {
+            peer,
+            requests: 0,
+            answered: None,
+            opened: Instant::now(),
+            body: None,
+            close: CancellationToken::new(),
+        }
+    }
+
     /// The end of an answer may still be on its way for a while.
-    fn is_idle(&self) -> bool {
-        let is_sent = |at: Instant| at.elapsed() >= FLUSH_TIME;
-        self.requests == 0 && self.answered.is_none_or(is_sent)
+    fn is_idle(&self, now: Instant) -> bool {
+        let is_sent = |at: Instant| now.saturating_duration_since(at) >= FLUSH_TIME;
+        match &self.body {
+            Some(body) => body.is_late(now),
+            None => self.requests == 0 && self.answered.is_none_or(is_sent),
+        }
     }
 
     fn idle_since(&self) -> Instant {
-        self.answered.unwrap_or(self.opened)
+        let body = self.body.as_ref().map(Arrival::due);
+        body.or(self.answered).unwrap_or(self.opened)
     }
 }
 
@@ -141,7 +171,8 @@ fn close_longest_idle(
     open: &mut BTreeMap<u64, Entry>,
     which: impl Fn(&Entry) -> bool,
 ) -> Option<()> {
-    let idle = open.iter().filter(|(_, e)| e.is_idle() && which(e));
+    let now = Instant::now();
+    let idle = open.iter().filter(|(_, e)| e.is_idle(now) && which(e));
     let number = *idle.min_by_key(|(_, entry)| entry.idle_since())?.0;
     open.remove(&number)?.close.cancel();
     Some(())

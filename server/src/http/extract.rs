@@ -1,26 +1,16 @@
 //! Extractors, with problem documents as rejections.
 
 use std::fmt;
-use std::time::Duration;
 
-use axum::body::{Body, Bytes};
+use axum::body::{Bytes, to_bytes};
 use axum::extract::{FromRequest, FromRequestParts, Query, RawPathParams, Request};
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, header};
-use futures_util::StreamExt;
 use serde::de::DeserializeOwned;
 use uuid::Uuid;
 
 use crate::batch::Kind;
 use crate::http::problem::{ProblemResponse, ProblemType};
-
-/// Maximum size of a body, bytes.
-pub(super) const MAX_BODY_BYTES: usize = 1 << 20;
-
-/// Bytes of a body that are read at most, even if it is too large.
-const MAX_DISCARDED_BYTES: usize = 64 << 20;
-/// Timeout of a body.
-const BODY_TIMEOUT: Duration = Duration::from_secs(30);
 
 /// Id of a job, from the path.
 #[derive(Debug, Clone, Copy)]
@@ -155,8 +145,7 @@ impl<S: Send + Sync> FromRequest<S> for JsonBody {
             return Err(ProblemType::MEDIA_TYPE
                 .with_detail("send the specification with `content-type: application/json`"));
         }
-        let body = receive_within(BODY_TIMEOUT, request.into_body()).await?;
-        Ok(Self(body))
+        Ok(Self(received(request).await?))
     }
 }
 
@@ -173,54 +162,8 @@ fn declared_as_json(headers: &HeaderMap) -> bool {
         || (essence.starts_with("application/") && essence.ends_with("+json"))
 }
 
-async fn receive_within(timeout: Duration, body: Body) -> Result<Bytes, ProblemResponse> {
-    tokio::time::timeout(timeout, receive(body))
-        .await
-        .unwrap_or_else(|_| {
-            let limit_s = timeout.as_secs();
-            let detail = format!("the body did not arrive within {limit_s} s");
-            Err(ProblemType::REQUEST_TIMEOUT.with_detail(detail))
-        })
-}
-
-/// Reads a body up to the limit. The rest of a larger one is read and discarded, up to a second limit: a client whose
-/// connection closes while it sends does not read the response.
-async fn receive(body: Body) -> Result<Bytes, ProblemResponse> {
-    let mut chunks = body.into_data_stream();
-    let (mut bytes, mut length) = (Vec::new(), 0_usize);
-    while let Some(chunk) = chunks.next().await {
-        let failed = |_| ProblemType::UNREADABLE_BODY.with_detail("the body could not be received");
-        let chunk = chunk.map_err(failed)?;
-        length = length.saturating_add(chunk.len());
-        if length <= MAX_BODY_BYTES {
-            bytes.extend_from_slice(&chunk);
-        } else {
-            bytes = Vec::new();
-        }
-        if length > MAX_DISCARDED_BYTES {
-            break;
-        }
-    }
-    if length > MAX_BODY_BYTES {
-        let detail = format!("the body has more than {MAX_BODY_BYTES} bytes");
-        return Err(ProblemType::BODY_TOO_LARGE.with_detail(detail));
-    }
-    Ok(bytes.into())
-}
-
-#[cfg(test)]
-mod tests {
-    use axum::response::IntoResponse;
-
-    use super::*;
-
-    #[tokio::test]
-    async fn a_body_that_does_not_arrive_times_out() {
-        let body = Body::from_stream(futures_util::stream::pending::<
-            Result<Vec<u8>, std::io::Error>,
-        >());
-        let received = receive_within(Duration::from_millis(20), body).await;
-        let response = received.expect_err("it never arrives").into_response();
-        assert_eq!(response.status(), 408);
-    }
+/// The body of a request, which [`crate::http::bodies`] has received.
+pub(super) async fn received(request: Request) -> Result<Bytes, ProblemResponse> {
+    let bytes = to_bytes(request.into_body(), usize::MAX).await;
+    bytes.map_err(|cause| ProblemType::UNREADABLE_BODY.with_detail(cause.to_string()))
 }

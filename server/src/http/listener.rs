@@ -31,6 +31,8 @@ const LIMITS: ConnectionLimits = ConnectionLimits {
 };
 /// File handles of the process that are left to files, the database and solving processes.
 const OTHER_FILES: u64 = 256;
+/// File handles of a connection: its own, and that of the file that it sends or receives.
+const FILES_OF_CONNECTION: u64 = 2;
 /// Timeout of the head of a request, from the moment a connection is accepted or its last response was sent; also ends
 /// idle connections.
 const HEAD_TIMEOUT: Duration = Duration::from_secs(30);
@@ -56,7 +58,8 @@ pub async fn serve(
 /// The limits that the file handles of this process allow.
 fn limits() -> ConnectionLimits {
     let handles = getrlimit(Resource::RLIMIT_NOFILE).map_or(u64::MAX, |(soft, _)| soft);
-    let most = usize::try_from(handles.saturating_sub(OTHER_FILES)).unwrap_or(usize::MAX);
+    let most = handles.saturating_sub(OTHER_FILES) / FILES_OF_CONNECTION;
+    let most = usize::try_from(most).unwrap_or(usize::MAX);
     ConnectionLimits {
         all: LIMITS.all.min(most.max(1)),
         peer: LIMITS.peer.min((most / 4 * 3).max(1)),
@@ -109,7 +112,9 @@ async fn handle(
     let (close, connection) = (connection.close.clone(), Arc::new(connection));
     let service = service_fn(move |request: Request<Incoming>| {
         let in_progress = connection.request();
-        let response = router.clone().oneshot(request.map(Body::new));
+        let mut request = request.map(Body::new);
+        request.extensions_mut().insert(Arc::clone(&connection));
+        let response = router.clone().oneshot(request);
         async move {
             response
                 .await

@@ -92,9 +92,9 @@ problem_types! {
     TOKEN_REQUIRED, 401, "token-required", "the access token is missing or wrong",
         "Send the access token of the service as `Authorization: Bearer TOKEN`.";
     REQUEST_TIMEOUT, 408, "request-timeout", "the request did not arrive in time",
-        "The body of a request has to arrive within 30 s. Send it again.";
+        "The body of a request was 30 s behind a rate of 64 KiB a second. Send it again.";
     BUSY, 503, "busy", "the service cannot take the request at present",
-        "More requests, streams or archives are open than the service allows, or the database is busy. Send the request again after the time in `Retry-After`.";
+        "More requests, streams or archives are open than the service allows, bodies of other requests need the memory for this one, or the database is busy. Send the request again after the time in `Retry-After`.";
     DISK_FULL, 503, "disk-full", "the data disk is full",
         "The disk of the database has too little free space to store anything. Jobs wait and continue by themselves; cancelling and deleting still work. Free space on it, or delete jobs.";
     RESULT_DAMAGED, 500, "result-damaged", "a stored result is damaged",

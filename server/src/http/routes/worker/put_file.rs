@@ -3,15 +3,14 @@
 use std::path::Path;
 
 use axum::Json;
-use axum::body::Body;
 use axum::extract::{Path as Parameters, Query, State};
-use futures_util::StreamExt;
 use serde::Deserialize;
 use tokio::io::AsyncWriteExt;
 use uuid::Uuid;
 
 use crate::export::files::{create_folder, is_full, is_plain_name};
 use crate::http::app::App;
+use crate::http::bodies::{ArrivingBody, BodyError};
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::objects::{ObjectFile, Source};
 use crate::store::integrity::Checksum;
@@ -27,9 +26,9 @@ pub(crate) enum FileError {
     /// Another worker holds the job.
     #[error("lease {} of job {} has ended", .0.number, .0.job)]
     LeaseLost(Lease),
-    /// The connection broke off.
+    /// It has not arrived.
     #[error("the file did not arrive: {0}")]
-    Broken(axum::Error),
+    Body(#[from] BodyError),
     /// The content is another one.
     #[error("{name} has the SHA-256 {found}, {named} was announced")]
     Differs {
@@ -47,7 +46,7 @@ impl RouteError for FileError {
         match self {
             Self::Name(_) => ProblemType::INVALID_QUERY,
             Self::LeaseLost(_) => ProblemType::LEASE_LOST,
-            Self::Broken(_) => ProblemType::REQUEST_TIMEOUT,
+            Self::Body(cause) => cause.problem_type(),
             Self::Differs { .. } => ProblemType::FILE_DIFFERS,
             Self::Write(cause) if is_full(cause) => ProblemType::DISK_FULL,
             Self::Write(_) => ProblemType::INTERNAL,
@@ -65,7 +64,7 @@ pub(crate) async fn put_file(
     State(app): State<App>,
     Parameters((job, number, name)): Parameters<(Uuid, i64, String)>,
     Query(announced): Query<Announced>,
-    body: Body,
+    body: ArrivingBody,
 ) -> Result<Json<Taken>, ProblemResponse> {
     if !is_plain_name(&name) {
         return Err(FileError::Name(name).into());
@@ -96,9 +95,15 @@ struct Sent {
 }
 
 /// Receives a file and writes it to an object.
-async fn into_object(app: &App, body: Body, sent: Sent) -> Result<NewContent, ProblemResponse> {
+async fn into_object(
+    app: &App,
+    body: ArrivingBody,
+    sent: Sent,
+) -> Result<NewContent, ProblemResponse> {
     let path = app.store.received_file().map_err(FileError::Write)?;
     let bytes = receive(body, &path, &sent).await?;
+    // From now on it is one of the concurrent requests. The semaphore is never closed.
+    let _permit = app.request_permits.acquire().await.ok();
     let file = ObjectFile {
         source: Source::File(path.to_path_buf()),
         bytes,
@@ -109,7 +114,7 @@ async fn into_object(app: &App, body: Body, sent: Sent) -> Result<NewContent, Pr
 }
 
 /// Receives a file into the folder of its attempt, under its name once it is complete.
-async fn into_folder(app: &App, body: Body, sent: Sent) -> Result<NewContent, FileError> {
+async fn into_folder(app: &App, body: ArrivingBody, sent: Sent) -> Result<NewContent, FileError> {
     let folder = app.store.attempt_folder(sent.lease);
     create_folder(&folder)?;
     let unfinished = folder.join(format!("{}.{}.unfinished", sent.name, Uuid::now_v7()));
@@ -127,20 +132,17 @@ async fn into_folder(app: &App, body: Body, sent: Sent) -> Result<NewContent, Fi
 }
 
 /// Writes a body as a file and compares its checksum; its length.
-async fn receive(body: Body, path: &Path, sent: &Sent) -> Result<u64, FileError> {
+async fn receive(mut body: ArrivingBody, path: &Path, sent: &Sent) -> Result<u64, FileError> {
     let mut file = tokio::fs::File::create(path).await?;
-    let (mut chunks, mut checksum) = (body.into_data_stream(), Checksum::default());
-    let mut bytes = 0;
-    while let Some(chunk) = chunks.next().await {
-        let chunk = chunk.map_err(FileError::Broken)?;
+    let mut checksum = Checksum::default();
+    while let Some(chunk) = body.chunk().await? {
         checksum.update(&chunk);
-        bytes += u64::try_from(chunk.len()).unwrap_or(u64::MAX);
         file.write_all(&chunk).await?;
     }
     file.sync_all().await?;
     let found = checksum.sha256();
     if found == sent.sha256 {
-        return Ok(bytes);
+        return Ok(body.bytes());
     }
     Err(FileError::Differs {
         name: sent.name.clone(),
