@@ -18,6 +18,7 @@ mod paging;
 mod problem;
 mod problem_type;
 mod routes;
+mod slots;
 mod table;
 mod tls;
 mod verified_file;

@@ -8,6 +8,7 @@ use tokio_util::sync::CancellationToken;
 
 use crate::estimate::machine::CalibrationCache;
 use crate::http::access::Access;
+use crate::http::slots::Slots;
 use crate::http::worker_registry::WorkerRegistry;
 use crate::store::Store;
 use crate::supervision::Supervisor;
@@ -22,7 +23,7 @@ pub(super) const MAX_STREAMS: usize = 1024;
 /// Maximum number of concurrent archives: each occupies a thread for as long as its client takes to read it.
 pub(super) const MAX_ARCHIVES: usize = 4;
 /// Largest number of studies that are expanded at once: each occupies a processor for up to seconds.
-const MAX_EXPANSIONS: usize = 2;
+pub(super) const MAX_EXPANSIONS: usize = 2;
 
 /// State that the routes share.
 #[derive(Debug, Clone)]
@@ -38,9 +39,9 @@ pub struct App {
     pub(super) document: &'static Value,
     /// Measured speed of this machine.
     pub(crate) machine: CalibrationCache,
-    pub(super) archive_permits: Arc<Semaphore>,
-    /// Permits to expand a study into its jobs.
-    pub(super) expansion_permits: Arc<Semaphore>,
+    pub(super) archive_slots: Slots,
+    /// Slots to expand a study into its jobs.
+    pub(super) expansion_slots: Slots,
     pub(super) long_poll_permits: Arc<Semaphore>,
     pub(super) stream_permits: Arc<Semaphore>,
     /// Permits of requests whose body has arrived.
@@ -64,8 +65,8 @@ impl App {
             supervisor,
             access,
             document,
-            archive_permits: Arc::new(Semaphore::new(MAX_ARCHIVES)),
-            expansion_permits: Arc::new(Semaphore::new(MAX_EXPANSIONS)),
+            archive_slots: Slots::new(MAX_ARCHIVES),
+            expansion_slots: Slots::new(MAX_EXPANSIONS),
             long_poll_permits: Arc::new(Semaphore::new(MAX_LONG_POLLS)),
             stream_permits: Arc::new(Semaphore::new(MAX_STREAMS)),
             request_permits: Arc::new(Semaphore::new(MAX_REQUESTS)),

@@ -1,7 +1,5 @@
 //! `POST /v1/sweeps` and `POST /v1/studies`: queues the jobs of a batch.
 
-use std::sync::Arc;
-
 use api::study::{StudyDocument, StudyRequest};
 use api::sweep::{Sweep, SweepRequest};
 use axum::body::Bytes;
@@ -10,13 +8,25 @@ use axum::http::{HeaderMap, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 
 use crate::batch::Kind;
-use crate::http::app::App;
+use crate::http::app::{App, MAX_EXPANSIONS};
 use crate::http::extract::{BatchId, JsonBody};
 use crate::http::idempotency_key::{KeyError, idempotency_key};
 use crate::http::limits;
-use crate::http::problem::ProblemResponse;
+use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::routes::batches::show::document;
+use crate::http::slots::MAX_WAITING;
 use crate::store::Submitted;
+
+/// Error of a study while too many others wait to be expanded.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "{MAX_EXPANSIONS} studies are being expanded and {MAX_WAITING} wait for it, which is the limit"
+)]
+struct TooManyStudiesError;
+
+impl RouteError for TooManyStudiesError {
+    const TYPE: ProblemType = ProblemType::BUSY;
+}
 
 /// Queues many variations of one specification, or none if one has a fault; of more than 1 000, a sample is checked.
 #[utoipa::path(
@@ -78,7 +88,10 @@ async fn submit(
         };
         let permit = match kind {
             Kind::Sweep => None,
-            Kind::AccuracyStudy => Some(Arc::clone(&app.expansion_permits).acquire_owned().await),
+            Kind::AccuracyStudy => {
+                let slot = app.expansion_slots.take().await;
+                Some(slot.ok_or(TooManyStudiesError)?)
+            }
         };
         let expand = move || {
             // Held until the expansion ends, also after the client has disconnected.
@@ -99,14 +112,13 @@ async fn submit(
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
     use std::time::Duration;
 
     use api::plan::MachineFigures;
     use serde_json::json;
-    use tokio::sync::Semaphore;
 
     use crate::estimate::machine::CalibrationCache;
+    use crate::http::slots::Slots;
     use crate::http::tests::{STUDY, SWEEP, Service};
 
     #[tokio::test]
@@ -219,7 +231,7 @@ mod tests {
         ];
         let (_, _, first) = service.send("POST", "/v1/studies", &keyed, STUDY).await;
         // A study that is queued already is shown without choosing its runs again.
-        service.app.expansion_permits = Arc::new(Semaphore::new(0));
+        service.app.expansion_slots = Slots::new(0);
         let again = service.send("POST", "/v1/studies", &keyed, STUDY);
         let again = tokio::time::timeout(Duration::from_mins(1), again).await;
         assert_eq!(first["id"], again.expect("an answer").2["id"]);
@@ -228,7 +240,7 @@ mod tests {
     #[tokio::test]
     async fn a_sweep_does_not_wait_for_studies_that_are_expanded() {
         let mut service = Service::new().await;
-        service.app.expansion_permits = Arc::new(Semaphore::new(0));
+        service.app.expansion_slots = Slots::new(0);
         let sweep = service.post("/v1/sweeps", SWEEP);
         let sweep = tokio::time::timeout(Duration::from_mins(1), sweep).await;
         assert_eq!(sweep.expect("an answer").0, 202);

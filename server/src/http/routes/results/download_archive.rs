@@ -63,12 +63,8 @@ pub(crate) async fn archive(
         return Err(JobError::Active(id).into());
     }
     let files = app.store.manifest(id).await?;
-    let permit = app.archive_permits.clone().acquire_owned();
-    let permit = tokio::time::timeout(PERMIT_TIMEOUT, permit).await;
-    let permit = permit
-        .ok()
-        .and_then(Result::ok)
-        .ok_or(TooManyArchivesError)?;
+    let permit = tokio::time::timeout(PERMIT_TIMEOUT, app.archive_slots.take()).await;
+    let permit = permit.ok().flatten().ok_or(TooManyArchivesError)?;
     let documents = app.store.block_documents(id).await?;
     for file in &files {
         // Whatever can be known to be damaged is a problem instead of an archive that breaks off.
@@ -258,7 +254,8 @@ mod tests {
         let id = service.with_files().await;
         let taken = service
             .app
-            .archive_permits
+            .archive_slots
+            .free
             .clone()
             .acquire_many_owned(4)
             .await;
