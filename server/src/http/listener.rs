@@ -126,6 +126,8 @@ async fn handle(
         .timer(TokioTimer::new())
         .header_read_timeout(HEAD_TIMEOUT)
         .max_buf_size(MAX_HEAD_BYTES)
+        // A buffer alone grows beyond its limit while a head that is in it is complete.
+        .max_header_size(MAX_HEAD_BYTES)
         .max_headers(MAX_HEADERS);
     let served = watcher.watch(builder.serve_connection(TokioIo::new(stream), service));
     tokio::select! {
@@ -201,6 +203,43 @@ mod tests {
         assert!(answer.ends_with("here"), "{answer}");
         let end = idle[0].read(&mut [0]).await;
         assert!(matches!(end, Ok(0) | Err(_)), "the first one is closed");
+        stopping.cancel();
+        served.await.expect("it ends");
+    }
+
+    #[tokio::test]
+    async fn a_head_has_a_largest_size_however_it_is_sent() {
+        let listener = TcpListener::bind("127.0.0.1:0").await.expect("a port");
+        let address = listener.local_addr().expect("an address");
+        let stopping = CancellationToken::new();
+        let router = Router::new().route("/", get(|| async { "here" }));
+        let served = tokio::spawn(serve_at_most(
+            FEW,
+            (listener, None),
+            router,
+            stopping.clone(),
+        ));
+        let (begin, end) = ("GET / HTTP/1.1\r\nx: ", "\r\nconnection: close\r\n\r\n");
+        for (length, parts, line) in [
+            (MAX_HEAD_BYTES, 1, "HTTP/1.1 200"),
+            (MAX_HEAD_BYTES, 9, "HTTP/1.1 200"),
+            (MAX_HEAD_BYTES + 1, 1, "HTTP/1.1 431"),
+            (100_000, 1, "HTTP/1.1 431"),
+            (100_000, 9, "HTTP/1.1 431"),
+        ] {
+            let filling = "x".repeat(length - begin.len() - end.len());
+            let head = format!("{begin}{filling}{end}").into_bytes();
+            let mut stream = TcpStream::connect(address).await.expect("a connection");
+            for part in head.chunks(length.div_ceil(parts)) {
+                // It may be refused before all of it is sent.
+                let _ = stream.write_all(part).await;
+                tokio::task::yield_now().await;
+            }
+            let mut answer = [0; 12];
+            stream.read_exact(&mut answer).await.expect("an answer");
+            let answer = String::from_utf8_lossy(&answer);
+            assert_eq!(answer, line, "{length} bytes in {parts}");
+        }
         stopping.cancel();
         served.await.expect("it ends");
     }
