@@ -6,22 +6,21 @@
 //! again. The stream ends when the service stops.
 
 use std::collections::VecDeque;
-use std::convert::Infallible;
 use std::time::Duration;
 
 use api::event::FeedEvent;
 use api::problem::Problem;
 use axum::extract::State;
-use axum::http::{HeaderMap, header};
-use axum::response::sse::{Event, KeepAlive, Sse};
-use axum::response::{IntoResponse, Response};
+use axum::http::HeaderMap;
+use axum::response::Response;
+use axum::response::sse::Event;
 use futures_util::stream;
 use serde_json::json;
 use tokio::sync::OwnedSemaphorePermit;
 
 use crate::http::app::App;
 use crate::http::problem::ProblemResponse;
-use crate::http::routes::jobs::stream::{KEEP_ALIVE, POLL_INTERVAL, StreamError, last_event_id};
+use crate::http::routes::jobs::stream::{POLL_INTERVAL, StreamError, last_event_id, streamed};
 use crate::metrics::Counted;
 use crate::store::{AllChanges, Changed, StoreError};
 
@@ -67,12 +66,9 @@ pub(crate) async fn all_events(
         _permit: permit,
     };
     let events = stream::unfold(tail, |mut tail| async move {
-        tail.next()
-            .await
-            .map(|event| (Ok::<_, Infallible>(event), tail))
+        tail.next().await.map(|event| (event, tail))
     });
-    let sse = Sse::new(events).keep_alive(KeepAlive::new().interval(KEEP_ALIVE));
-    Ok(([(header::CACHE_CONTROL, "no-store")], sse).into_response())
+    Ok(streamed(events))
 }
 
 fn event(name: &str, revision: Option<i64>) -> Event {

@@ -12,10 +12,10 @@ use std::time::Duration;
 use api::event::StreamEvent;
 use api::problem::Problem;
 use axum::extract::State;
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{HeaderMap, HeaderName, StatusCode, header};
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
-use futures_util::stream;
+use futures_util::{Stream, StreamExt, stream};
 use tokio::sync::OwnedSemaphorePermit;
 use uuid::Uuid;
 
@@ -26,10 +26,12 @@ use crate::metrics::Counted;
 use crate::store::{Changes, StoreError, StoredEvent};
 
 /// Interval of comment lines, which keep the connection open through proxies.
-pub(super) const KEEP_ALIVE: Duration = Duration::from_secs(15);
+const KEEP_ALIVE: Duration = Duration::from_secs(15);
 /// Poll interval of the store, in case a notification was missed.
 pub(super) const POLL_INTERVAL: Duration = Duration::from_secs(5);
 const LAST_EVENT_ID: &str = "last-event-id";
+/// Header with which nginx and its descendants send an answer on as it arrives, instead of in blocks.
+const NO_BUFFERING: HeaderName = HeaderName::from_static("x-accel-buffering");
 
 /// Error of a request for an event stream.
 #[derive(Debug, thiserror::Error)]
@@ -100,12 +102,17 @@ pub(crate) async fn events(
         _permit: permit,
     };
     let events = stream::unfold(tail, |mut tail| async move {
-        tail.next()
-            .await
-            .map(|event| (Ok::<_, Infallible>(event), tail))
+        tail.next().await.map(|event| (event, tail))
     });
-    let sse = Sse::new(events).keep_alive(KeepAlive::new().interval(KEEP_ALIVE));
-    Ok(([(header::CACHE_CONTROL, "no-store")], sse).into_response())
+    Ok(streamed(events))
+}
+
+/// The answer that streams events; no proxy stores them or waits for more of them.
+pub(super) fn streamed(events: impl Stream<Item = Event> + Send + 'static) -> Response {
+    let sse = Sse::new(events.map(Ok::<_, Infallible>));
+    let sse = sse.keep_alive(KeepAlive::new().interval(KEEP_ALIVE));
+    let headers = [(header::CACHE_CONTROL, "no-store"), (NO_BUFFERING, "no")];
+    (headers, sse).into_response()
 }
 
 pub(super) fn last_event_id(headers: &HeaderMap) -> Result<Option<i64>, StreamError> {

@@ -110,6 +110,20 @@ async fn a_stream_ends_when_the_service_stops() {
 }
 
 #[tokio::test]
+async fn proxies_neither_store_nor_collect_a_stream() {
+    let service = Service::new().await;
+    let path = format!("/v1/jobs/{}/events", finished_job(&service).await);
+    service.app.stopping.cancel();
+    for path in [path.as_str(), "/v1/events"] {
+        let (status, headers, _) = service.text("GET", path, &[], "").await;
+        assert_eq!(status, 200);
+        assert_eq!(headers["content-type"], "text/event-stream");
+        assert_eq!(headers["x-accel-buffering"], "no");
+        assert_eq!(headers["cache-control"], "no-store");
+    }
+}
+
+#[tokio::test]
 async fn invalid_event_ids_are_problems() {
     let service = Service::new().await;
     let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
