@@ -87,6 +87,12 @@ impl Client {
             let value = HeaderValue::try_from(format!("Bearer {token}"));
             let mut value = value.map_err(|_| ClientError::Token)?;
             value.set_sensitive(true);
+            if url.scheme() == "http" && !is_loopback(&url) {
+                tracing::warn!(
+                    server,
+                    "the access token is sent unencrypted; use an address with https"
+                );
+            }
             headers.insert(AUTHORIZATION, value);
         }
         let http = reqwest::Client::builder()

@@ -103,6 +103,9 @@ impl Service {
         if !config.listen.ip().is_loopback() && !config.access.requires_token() {
             return Err(ServiceError::NotLoopback(config.listen));
         }
+        if shows_token(config.listen, config.tls.is_some()) {
+            tracing::warn!(listen = %config.listen, "the access token is sent unencrypted; use --tls-certificate, or a proxy with TLS on this machine");
+        }
         let listen = |cause| ServiceError::Listen {
             address: config.listen,
             cause,
@@ -169,6 +172,11 @@ impl Service {
         self.store.close().await;
         tracing::info!("service stopped");
     }
+}
+
+/// Whether tokens that are sent to an address can be read on the way.
+fn shows_token(listen: SocketAddr, is_encrypted: bool) -> bool {
+    !listen.ip().is_loopback() && !is_encrypted
 }
 
 /// Serves on the listener of the start, or on a new one at the same address.

@@ -1,6 +1,11 @@
 //! Requirement: a service with an access token answers requests without it only for its health and its static pages, and
 //! a service without a token listens on loopback only.
 
+use std::io::{BufRead, BufReader};
+use std::os::unix::fs::PermissionsExt;
+use std::process::{Command, Stdio};
+
+use tests::program::binary;
 use tests::{Server, fretwear};
 
 const TOKEN: &str = "0123456789-abcdefghij";
@@ -50,4 +55,51 @@ fn without_a_token_the_service_listens_on_loopback_only() {
     );
     assert_eq!(ran.code, Some(1));
     assert!(ran.stderr.contains("5 characters"), "{}", ran.stderr);
+}
+
+/// What a service with these options says at its start under a umask until it serves.
+fn first_lines(folder: &std::path::Path, umask: &str, options: &str) -> String {
+    let command = format!("umask {umask}; exec \"$0\" serve --workers 0 {options}");
+    let mut service = Command::new("sh")
+        .args(["-c", &command])
+        .arg(binary())
+        .current_dir(folder)
+        .env("RUST_LOG", "info")
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the service can be started");
+    let log = service.stderr.take().expect("a pipe");
+    let mut lines = String::new();
+    for line in BufReader::new(log).lines() {
+        lines += &format!("{}\n", line.expect("text"));
+        if lines.contains("service started") {
+            break;
+        }
+    }
+    service.kill().expect("it is there");
+    service.wait().expect("it ends");
+    lines
+}
+
+#[test]
+fn secrets_and_data_that_others_can_reach_are_warnings() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let file = folder.path().join("token");
+    std::fs::write(&file, TOKEN).expect("a file can be written");
+    let allow = |mode| {
+        let mode = std::fs::Permissions::from_mode(mode);
+        std::fs::set_permissions(&file, mode).expect("a mode");
+    };
+    let warnings = ["file of a secret", "change the database"];
+    let given = |umask| {
+        let options = "--listen 127.0.0.1:0 --token-file token";
+        let lines = first_lines(folder.path(), umask, options);
+        assert!(lines.contains("service started"), "{lines}");
+        warnings.map(|words| lines.contains(words))
+    };
+    allow(0o600);
+    assert_eq!(given("022"), [false, false]);
+    assert_eq!(given("000"), [false, true]);
+    allow(0o644);
+    assert_eq!(given("077"), [true, false]);
 }

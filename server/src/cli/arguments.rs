@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use api::spec::{Criterion, EnumValue, Part};
 
 use crate::bench::{against, predictions};
-use crate::cli::access::{AccessOptions, TlsOptions};
+use crate::cli::access::{AccessOptions, TlsOptions, token_in};
 use crate::cli::listen::ListenAddress;
 use crate::cli::options::{SolveOptions, WorkOptions};
 use crate::cli::terminal::failed;
@@ -87,7 +87,7 @@ pub(super) struct WorkArguments {
 impl EmployerOptions {
     /// A client of the service with the token for workers.
     pub(super) fn client(&self) -> Result<Client, ExitCode> {
-        let token = self.token_file.as_deref().map(fs_err::read_to_string);
+        let token = self.token_file.as_deref().map(token_in);
         let token = token.transpose().map_err(failed)?;
         let token = token.as_deref().map(str::trim);
         Client::new(&self.server, token, self.ca.as_deref()).map_err(failed)

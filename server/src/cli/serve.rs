@@ -3,6 +3,7 @@
 use nix::sys::resource::{Resource, getrlimit, setrlimit};
 use tokio::signal::unix::{SignalKind, signal};
 
+use crate::cli::access::warn_of_umask;
 use crate::cli::arguments::{LogFormat, ServeArguments};
 use crate::cli::runtime::block_on;
 use crate::cli::terminal::{Ended, failed, write_err};
@@ -11,6 +12,7 @@ use crate::service::{Config, Service};
 
 pub(super) fn run(arguments: ServeArguments) -> Ended {
     let program = std::env::current_exe().map_err(failed)?;
+    warn_of_umask();
     let access = arguments.access.access(arguments.listen.name);
     let access = access.map_err(failed)?;
     let tls = arguments.tls.read().map_err(failed)?;

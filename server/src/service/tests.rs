@@ -137,3 +137,22 @@ async fn a_service_whose_task_fails_repeatedly_is_not_ready_and_names_it() {
     );
     service.stop().await;
 }
+
+#[test]
+fn tokens_are_shown_where_an_address_beyond_loopback_is_not_encrypted() {
+    let at = |address: &str| address.parse().expect("an address");
+    for (address, is_encrypted, expected) in [
+        ("0.0.0.0:80", false, true),
+        ("[::]:80", false, true),
+        ("10.0.0.1:80", false, true),
+        ("0.0.0.0:80", true, false),
+        ("127.0.0.1:80", false, false),
+        ("[::1]:80", false, false),
+    ] {
+        assert_eq!(
+            super::shows_token(at(address), is_encrypted),
+            expected,
+            "{address}"
+        );
+    }
+}
