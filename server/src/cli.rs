@@ -165,6 +165,9 @@ enum DeckFormat {
 
 /// Runs the command of the arguments.
 pub fn main() -> ExitCode {
+    if let Err(cause) = runtime::report_large_files() {
+        return terminal::failed(cause);
+    }
     let ended = match child::arguments() {
         Some(arguments) => child::run(&arguments),
         None => run(Arguments::parse().command),

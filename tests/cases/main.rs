@@ -28,6 +28,7 @@ mod extruded_contact;
 mod failing_log;
 mod fault_injection;
 mod fields_open_in_vtk;
+mod file_size_limit;
 mod full_disk;
 mod golden_results;
 mod hard;

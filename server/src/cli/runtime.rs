@@ -1,6 +1,9 @@
 //! Runtime and parallelism of the commands.
 
 use std::process::ExitCode;
+use std::sync::Arc;
+
+use nix::sys::signal::Signal::SIGXFSZ;
 
 use crate::cli::terminal::failed;
 
@@ -12,6 +15,12 @@ pub(super) fn or_processors(given: Option<u16>) -> usize {
 /// Processors of this machine that the process may use.
 pub(super) fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// Lets writes beyond the largest size of a file (`ulimit -f`) fail with an error. Otherwise the system ends the process without a line.
+pub(super) fn report_large_files() -> std::io::Result<()> {
+    let flag = Arc::default();
+    signal_hook::flag::register(SIGXFSZ as i32, flag).map(drop)
 }
 
 /// Runs a future on a multi-threaded runtime.
