@@ -38,7 +38,7 @@ pub use mission::{MissionBlock, MissionOrder};
 pub use model::{Dimension, Ends, Model, ModelPreset, RingMotion, Top};
 pub use motion::{DerivedMotion, Drive, FourierTerm, Motion, MotionKind, PsdPoint, Waveform};
 pub use plating::{PlatingLayer, Platings};
-pub use read::{ParseError, pointer_token};
+pub use read::{ParseError, pointer_token, read};
 pub use real_contact::{Film, SpotDeformation, Spots};
 pub use settings::{Accuracy, CycleJump, Output, Overrides, Preset, Stop, Switch};
 pub use system::{System, SystemKind};

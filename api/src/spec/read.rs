@@ -1,18 +1,19 @@
 //! Parses a [`Spec`]: all unknown fields at once, or the place of a parse error.
 
+mod objects;
 mod wording;
 
-use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use serde_ignored::Path as IgnoredPath;
-use serde_json::Value;
 use serde_path_to_error::{Path as TrackedPath, Segment, Track};
 
 use super::Spec;
 use crate::problem::Fault;
+use objects::Objects;
 
 /// The bytes are no specification: malformed JSON, a number out of range, or a wrong type.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("line {line}, column {column}{}: {detail}", at_pointer(.pointer))]
+#[error("{detail} at line {line}, column {column}{}", at_pointer(.pointer))]
 pub struct ParseError {
     /// JSON pointer of the value; empty for malformed JSON.
     pub pointer: String,
@@ -32,56 +33,36 @@ impl Spec {
     /// # Errors
     /// [`ParseError`] for malformed JSON, a wrong type, a missing `system.kind`, or a field given twice.
     pub fn read(bytes: &[u8]) -> Result<(Self, Vec<Fault>), ParseError> {
-        if let Some(error) = no_object(bytes) {
-            return Err(error);
+        match no_object(bytes) {
+            Some(error) => Err(error),
+            None => read(bytes),
         }
-        let mut faults = Vec::new();
-        let mut json = serde_json::Deserializer::from_slice(bytes);
-        let mut track = Track::new();
-        let spec = {
-            let tracked = serde_path_to_error::Deserializer::new(&mut json, &mut track);
-            let mut collect = |path: IgnoredPath<'_>| {
-                let pointer = ignored_pointer(&path);
-                let field = pointer.rsplit('/').next().unwrap_or_default().to_owned();
-                faults.push(Fault::new(pointer, format!("unknown field `{field}`")));
-            };
-            Self::deserialize(serde_ignored::Deserializer::new(tracked, &mut collect))
-        };
-        let spec = spec.map_err(|error| ParseError::of(&error, &tracked_pointer(&track.path())))?;
-        json.end().map_err(|error| ParseError::of(&error, ""))?;
-        faults.extend(arrays_for_objects(bytes));
-        Ok((spec, faults))
     }
 }
 
-/// Pointers of objects. Serde also accepts an array of their fields in order, which is surely a mistake.
-const OBJECTS: [&str; 16] = [
-    "",
-    "/system",
-    "/materials",
-    "/materials/slider",
-    "/materials/receptacle",
-    "/interface",
-    "/interface/friction",
-    "/interface/wear",
-    "/interface/wear/slider",
-    "/interface/wear/receptacle",
-    "/plating",
-    "/life",
-    "/load",
-    "/motion",
-    "/accuracy",
-    "/output",
-];
-
-fn arrays_for_objects(bytes: &[u8]) -> Vec<Fault> {
-    let Ok(document) = serde_json::from_slice::<Value>(bytes) else {
-        return Vec::new();
+/// Parses a document and lists its unknown fields, as far as its type does not refuse them. An array of the fields of an object is not
+/// taken for the object.
+///
+/// # Errors
+/// [`ParseError`] for malformed JSON, a wrong type, a missing field, or a field given twice.
+pub fn read<T: DeserializeOwned>(bytes: &[u8]) -> Result<(T, Vec<Fault>), ParseError> {
+    let mut faults = Vec::new();
+    let mut json = serde_json::Deserializer::from_slice(bytes);
+    let mut track = Track::new();
+    let document = {
+        let tracked = serde_path_to_error::Deserializer::new(&mut json, &mut track);
+        let mut collect = |path: IgnoredPath<'_>| {
+            let pointer = ignored_pointer(&path);
+            let field = pointer.rsplit('/').next().unwrap_or_default().to_owned();
+            faults.push(Fault::new(pointer, format!("unknown field `{field}`")));
+        };
+        let collected = serde_ignored::Deserializer::new(tracked, &mut collect);
+        T::deserialize(Objects(collected))
     };
-    let is_array = |pointer: &&str| document.pointer(pointer).is_some_and(Value::is_array);
-    let arrays = OBJECTS.into_iter().filter(is_array);
-    let fault = |pointer| Fault::new(pointer, "an array instead of an object");
-    arrays.map(fault).collect()
+    let document =
+        document.map_err(|error| ParseError::of(&error, &tracked_pointer(&track.path())))?;
+    json.end().map_err(|error| ParseError::of(&error, ""))?;
+    Ok((document, faults))
 }
 
 /// A key as a token of a JSON pointer (RFC 6901).

@@ -1,7 +1,6 @@
 //! Parts that the requests of all kinds share: a base specification, a name, and the jobs they are expanded into.
 
 use api::problem::Fault;
-use api::spec::ParseError;
 use api::sweep::Changes;
 use serde::de::DeserializeOwned;
 
@@ -24,7 +23,12 @@ pub struct Variation {
 
 /// Reads a document with a specification in it.
 pub(in crate::batch) fn read<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Refused> {
-    serde_json::from_slice(bytes).map_err(|error| Refused::Parse(ParseError::of(&error, "")))
+    let (request, unknown) = api::spec::read(bytes)?;
+    if unknown.is_empty() {
+        Ok(request)
+    } else {
+        Err(Refused::Faults(unknown))
+    }
 }
 
 /// Returns the fault of a name that is too long, or that no database can store.

@@ -1,5 +1,7 @@
 //! Pointers of faults in parsing.
 
+use serde_json::{Value, json};
+
 use super::*;
 use crate::spec::{CycleJump, Material, SystemKind};
 
@@ -272,4 +274,73 @@ fn a_wrong_type_says_what_is_expected_and_how_a_number_is_written() {
             "{error}"
         );
     }
+}
+
+/// Every object of a document that is read as a structure, by its pointer: all but maps, whose keys are free.
+fn structures(value: &Value, pointer: &str, found: &mut Vec<String>) {
+    const MAPS: [&str; 3] = ["/labels", "/effects", "/provenance"];
+    match value {
+        Value::Object(fields) => {
+            if !MAPS.contains(&pointer) {
+                found.push(pointer.to_owned());
+            }
+            for (name, field) in fields {
+                structures(field, &format!("{pointer}/{name}"), found);
+            }
+        }
+        Value::Array(entries) => {
+            for (index, entry) in entries.iter().enumerate() {
+                structures(entry, &format!("{pointer}/{index}"), found);
+            }
+        }
+        _ => {}
+    }
+}
+
+#[test]
+fn an_array_of_fields_is_no_object_wherever_it_is() {
+    let document = json!({
+        "system": {"kind": "fuzz_button"},
+        "model": {"dimension": "ring"},
+        "materials": {"slider": {"youngs_modulus_mpa": 1.0, "poisson_ratio": 0.3}},
+        "interface": {
+            "friction": {"law": "coulomb", "coefficient": 0.9},
+            "wear": {"slider": {"law": "archard", "k": 1e-4}, "receptacle": {"law": "archard", "k": 1e-4}},
+        },
+        "plating": {"slider": [{"material": "hard_gold", "thickness_um": 0.76, "wear": {"law": "archard", "k": 1e-4}}]},
+        "load": {"kind": "force", "n": 0.5},
+        "environment": {"temperature_c": 20.0},
+        "motion": {"kind": "vibration", "psd": [{"frequency_hz": 10.0, "g2_per_hz": 0.01}]},
+        "mission": [{"name": "a", "motion": {"kind": "fourier", "terms": [{"order": 1, "sine_mm": 0.1}]}}],
+        "accuracy": {"overrides": {"cycle_jump": 3}},
+        "output": {"fields": true},
+        "stop": [{"worn_depth_mm": 0.1}],
+        "life": {"criteria": [{"kind": "base_metal"}]},
+        "labels": {"lot": "7"},
+    });
+    let mut pointers = Vec::new();
+    structures(&document, "", &mut pointers);
+    assert!(pointers.len() > 25, "{pointers:?}");
+    let (_, unknown) = Spec::read(document.to_string().as_bytes()).expect("readable");
+    assert_eq!(unknown, []);
+    for pointer in pointers {
+        for is_empty in [false, true] {
+            let mut positional = document.clone();
+            let place = positional.pointer_mut(&pointer).expect("it is there");
+            let fields = place.as_object().expect("an object").values().cloned();
+            *place = fields.filter(|_| !is_empty).collect();
+            let error = refused(&positional.to_string());
+            assert_eq!(error.pointer, pointer, "{positional}");
+            assert!(error.detail.contains("found a list"), "{error}");
+        }
+    }
+    // Maps and lists are what they are.
+    assert_eq!(
+        refused(r#"{"system":{"kind":"dimm"},"labels":[]}"#).pointer,
+        "/labels"
+    );
+    assert_eq!(
+        refused(r#"{"system":{"kind":"dimm"},"stop":{}}"#).pointer,
+        "/stop"
+    );
 }

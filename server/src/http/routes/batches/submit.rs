@@ -156,6 +156,46 @@ mod tests {
     }
 
     #[tokio::test]
+    async fn arrays_of_fields_are_no_objects() {
+        let service = Service::new().await;
+        for (path, body, status, pointer) in [
+            ("jobs", r#"[{"kind":"dimm"}]"#, 400, ""),
+            ("plans", r#"{"system":["dimm"]}"#, 400, "/system"),
+            ("worker-tokens", r#"["cluster"]"#, 400, ""),
+            ("studies", r#"["n",{"system":{"kind":"dimm"}},9]"#, 400, ""),
+            (
+                "sweeps",
+                r#"["n",{"system":{"kind":"dimm"}},{"/cycles":[9]},null]"#,
+                400,
+                "",
+            ),
+            (
+                "sweeps",
+                r#"{"base":{"system":{"kind":"dimm"}},"grid":[]}"#,
+                400,
+                "/grid",
+            ),
+            (
+                "sweeps",
+                r#"{"base":{"system":{"kind":"dimm"},"load":["force",1]},"list":[{}]}"#,
+                422,
+                "/base/load",
+            ),
+            (
+                "sweeps",
+                r#"{"base":{"system":{"kind":"dimm"}},"list":[{"/load":["force",1]}]}"#,
+                422,
+                "/list/0/~1load",
+            ),
+        ] {
+            let (found, _, problem) = service.post(&format!("/v1/{path}"), body).await;
+            let at = &problem["faults"][0]["pointer"];
+            assert_eq!((found.as_u16(), at), (status, &json!(pointer)), "{problem}");
+        }
+        assert_eq!(service.get("/v1/jobs").await.2["jobs"], json!([]));
+    }
+
+    #[tokio::test]
     async fn the_same_key_and_body_make_one_sweep() {
         let service = Service::new().await;
         let keyed = [

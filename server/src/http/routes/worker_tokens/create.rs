@@ -11,6 +11,7 @@ use sha2::{Digest, Sha256};
 use crate::http::app::App;
 use crate::http::extract::JsonBody;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
+use crate::spec::Refused;
 
 /// Longest name, characters.
 const MAX_NAME: usize = 100;
@@ -20,9 +21,6 @@ const TOKEN_BYTES: usize = 32;
 /// Why no token is made.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum CreateError {
-    /// The body is not what it should be.
-    #[error("{0}")]
-    Body(#[from] serde_json::Error),
     /// The name is empty or too long.
     #[error("a name has 1 to {MAX_NAME} characters, not all of them blank; this one has {0}")]
     Name(usize),
@@ -37,7 +35,7 @@ pub(crate) enum CreateError {
 impl RouteError for CreateError {
     fn problem_type(&self) -> ProblemType {
         match self {
-            Self::Body(_) | Self::Name(_) | Self::Nul => ProblemType::UNREADABLE_BODY,
+            Self::Name(_) | Self::Nul => ProblemType::UNREADABLE_BODY,
             Self::Random(_) => ProblemType::INTERNAL,
         }
     }
@@ -55,7 +53,7 @@ pub(crate) async fn create_worker_token(
     State(app): State<App>,
     JsonBody(body): JsonBody,
 ) -> Result<(StatusCode, Json<CreatedWorkerToken>), ProblemResponse> {
-    let new: NewWorkerToken = serde_json::from_slice(&body).map_err(CreateError::Body)?;
+    let (new, _): (NewWorkerToken, _) = api::spec::read(&body).map_err(Refused::Parse)?;
     let length = new.name.chars().count();
     if new.name.trim().is_empty() || length > MAX_NAME {
         return Err(CreateError::Name(length).into());
