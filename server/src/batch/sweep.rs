@@ -161,6 +161,12 @@ fn check_size(request: &SweepRequest) -> Result<(), Vec<Fault>> {
             format!("{jobs} jobs; a {} has 1 to {limit}", &pointer[1..]),
         );
     }
+    if request.grid.as_ref().is_some_and(BTreeMap::is_empty) {
+        fault(
+            pointer,
+            "no pointer; a grid has the values of 1 at least".to_owned(),
+        );
+    }
     if changes > CHANGE_LIMIT {
         let detail = format!("{changes} pointers a job, at most {CHANGE_LIMIT}");
         fault(pointer, detail);
@@ -259,6 +265,9 @@ mod tests {
         ] {
             assert_eq!(expanded(&neither).expect_err("refused").len(), 1);
         }
+        let no_pointer = json!({"base": {"system": {"kind": "dimm"}}, "grid": {}});
+        let faults = expanded(&no_pointer).expect_err("refused");
+        assert_eq!((faults.len(), &faults[0].pointer[..]), (1, "/grid"));
         assert_eq!(
             expanded(&json!({"base": {}, "list": []})).expect_err("refused")[0].detail,
             "0 jobs; a list has 1 to 1000"

@@ -22,7 +22,7 @@ pub(in crate::cli) struct SubmitArguments {
     #[arg(long, allow_negative_numbers = true)]
     priority: Option<i32>,
     /// The job fails if it has not ended so many seconds after its submission.
-    #[arg(long)]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
     deadline_s: Option<u32>,
     /// Requests with the same key queue one job, also from another terminal; a new key unless given. 1 to 255 printable ASCII characters.
     #[arg(long, value_parser = idempotency_key::checked)]

@@ -24,12 +24,18 @@ use crate::spec;
 use crate::spec::{Refused, Resolved};
 use crate::store::{NewJob, SubmitOptions, Submitted};
 
-/// Error of a priority that is out of range.
+/// Error of an option that is out of range.
 #[derive(Debug, thiserror::Error)]
-#[error("priority {0} is not from -{MAX_PRIORITY} to {MAX_PRIORITY}")]
-struct PriorityError(i32);
+enum OptionError {
+    /// The priority.
+    #[error("priority {0} is not from -{MAX_PRIORITY} to {MAX_PRIORITY}")]
+    Priority(i32),
+    /// A job cannot end before it is submitted.
+    #[error("deadline_s is 0; it can be 1 or more")]
+    Deadline,
+}
 
-impl RouteError for PriorityError {
+impl RouteError for OptionError {
     const TYPE: ProblemType = ProblemType::INVALID_QUERY;
 }
 
@@ -47,14 +53,18 @@ pub(crate) struct SubmitQuery {
     #[param(required = false, minimum = -100, maximum = 100)]
     priority: i32,
     /// The job fails if it has not ended this many seconds after its submission.
+    #[param(minimum = 1)]
     deadline_s: Option<u32>,
 }
 
 impl SubmitQuery {
-    fn options(&self) -> Result<SubmitOptions, PriorityError> {
+    fn options(&self) -> Result<SubmitOptions, OptionError> {
         // Not `abs`, which overflows for the smallest number.
         if !(-MAX_PRIORITY..=MAX_PRIORITY).contains(&self.priority) {
-            return Err(PriorityError(self.priority));
+            return Err(OptionError::Priority(self.priority));
+        }
+        if self.deadline_s == Some(0) {
+            return Err(OptionError::Deadline);
         }
         Ok(SubmitOptions {
             priority: self.priority,
@@ -164,7 +174,12 @@ mod tests {
             .await;
         assert_eq!((status.as_u16(), &job["priority"]), (202, &(-7).into()));
         assert!(job["deadline_at"].as_str() > job["created_at"].as_str());
-        for query in ["priority=101", "priority=high", "deadline_s=-1"] {
+        for query in [
+            "priority=101",
+            "priority=high",
+            "deadline_s=-1",
+            "deadline_s=0",
+        ] {
             let (status, _, problem) = service.post(&format!("/v1/jobs?{query}"), body).await;
             assert_eq!(
                 (status.as_u16(), problem["type"].as_str()),
