@@ -2,6 +2,7 @@
 //! or runs, so only starts are decided here. Knows neither jobs nor the store.
 
 pub mod slurm;
+pub mod submissions;
 
 use std::time::Duration;
 

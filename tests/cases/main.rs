@@ -69,6 +69,7 @@ mod study_over_http;
 mod summary_tables;
 mod sweep;
 mod tls;
+mod unacknowledged_workers;
 mod unusable_destinations;
 mod vibrated_contact;
 mod wear_laws;

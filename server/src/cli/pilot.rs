@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use api::service::Demand;
 use clap::{Args, Subcommand};
@@ -14,6 +14,7 @@ use crate::cli::serve::until_signal;
 use crate::cli::terminal::{Ended, failed, write_out};
 use crate::client::Client;
 use crate::placement::slurm::{SlurmError, SlurmWorkers, Tasks};
+use crate::placement::submissions::Submissions;
 use crate::placement::{Backoff, Fleet};
 
 /// Default memory of a worker for each of its slots, MB. Arbitrary: solves need 20 to 350 MB by their plans.
@@ -90,6 +91,7 @@ async fn pilot(arguments: &SlurmArguments, client: &Client, workers: &SlurmWorke
     let mut starts = Starts {
         backoff: Backoff::new(every),
         failed: HashSet::new(),
+        submissions: Submissions::default(),
     };
     loop {
         match client.demand().await {
@@ -98,7 +100,8 @@ async fn pilot(arguments: &SlurmArguments, client: &Client, workers: &SlurmWorke
             }
             Ok(demand) => {
                 if let Err(error) = starts.place((fleet, workers), &demand).await {
-                    tracing::warn!(%error, "no workers were submitted");
+                    let unlisted = starts.submissions.unlisted();
+                    tracing::warn!(%error, unlisted, "no workers were submitted, or it is not known whether they were");
                 }
             }
             Err(error) if error.is_rejected() => return Err(failed(error)),
@@ -113,6 +116,7 @@ struct Starts {
     backoff: Backoff,
     /// Tasks that had failed at the last look.
     failed: HashSet<String>,
+    submissions: Submissions,
 }
 
 impl Starts {
@@ -122,7 +126,13 @@ impl Starts {
         (fleet, workers): (Fleet, &SlurmWorkers),
         demand: &Demand,
     ) -> Result<(), SlurmError> {
-        let Tasks { present, failed } = workers.tasks().await?;
+        let Tasks {
+            present,
+            failed,
+            submissions,
+        } = workers.tasks().await?;
+        self.submissions.listed(&submissions, Instant::now());
+        let unlisted = self.submissions.unlisted();
         let others = failed.difference(&self.failed).count();
         self.failed = failed;
         let before = self.backoff.fruitless();
@@ -136,15 +146,16 @@ impl Starts {
                 "workers have failed; their logs (--logs) say why"
             );
         }
-        let missing = fleet.wanted(demand).saturating_sub(present);
+        let missing = fleet.wanted(demand).saturating_sub(present + unlisted);
         if missing == 0 || !wait.is_zero() {
             return Ok(());
         }
         self.backoff.started(missing);
-        workers.submit(missing).await?;
+        workers.submit(missing, &mut self.submissions).await?;
         tracing::info!(
             submitted = missing,
             present,
+            unlisted,
             queued = demand.queued,
             running = demand.running,
             "workers submitted"

@@ -1,15 +1,18 @@
 //! Slurm: workers as tasks of job arrays.
 //!
-//! What is submitted and runs is read from Slurm's queue by the name of the jobs, so that nothing has to be remembered.
+//! What is submitted and runs is read from Slurm's queue by the name of the jobs. Only submissions that are not listed there yet are
+//! remembered; tasks name theirs by a comment.
 
 use std::collections::HashSet;
 use std::path::PathBuf;
 use std::process::{Output, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use tokio::io::AsyncWriteExt;
 use tokio::process::Command;
 use tokio::time::timeout;
+
+use crate::placement::submissions::Submissions;
 
 /// Time between SIGTERM and the end of a worker at its time limit: its solves write a last checkpoint.
 const WARNING: Duration = Duration::from_mins(1);
@@ -17,7 +20,7 @@ const WARNING: Duration = Duration::from_mins(1);
 const LONGEST_ARRAY: u64 = 1_000;
 /// Longest time that Slurm may take to answer: its programs wait for a controller that is away.
 const LONGEST_ANSWER: Duration = Duration::from_mins(1);
-/// States of tasks that count as workers, and of those that have failed, which Slurm lists for some minutes.
+/// States of tasks that count as workers, and of those that have failed; Slurm lists ended ones for some minutes.
 const PRESENT: [&str; 5] = [
     "PENDING",
     "CONFIGURING",
@@ -80,18 +83,25 @@ pub struct Tasks {
     pub present: u64,
     /// Ids of those that have failed within some minutes.
     pub failed: HashSet<String>,
+    /// Keys of the submissions of all of them, also of those that have ended within some minutes.
+    pub submissions: HashSet<String>,
 }
 
 impl Tasks {
-    /// Of lines with state and id.
+    /// Of lines with state, id and comment.
     fn of(listed: &str) -> Self {
         let mut tasks = Self::default();
-        for (state, id) in listed.lines().filter_map(|line| line.split_once(' ')) {
+        for line in listed.lines() {
+            let mut words = line.split_whitespace();
+            let (Some(state), Some(id)) = (words.next(), words.next()) else {
+                continue;
+            };
             if FAILED.contains(&state) {
                 tasks.failed.insert(id.to_owned());
-            } else {
+            } else if PRESENT.contains(&state) {
                 tasks.present += 1;
             }
+            tasks.submissions.extend(words.next().map(str::to_owned));
         }
         tasks
     }
@@ -134,24 +144,33 @@ impl SlurmWorkers {
     /// # Errors
     /// [`SlurmError`].
     pub async fn tasks(&self) -> Result<Tasks, SlurmError> {
-        let states = [&PRESENT[..], &FAILED].concat().join(",");
         let mut command = Command::new("squeue");
-        command.args(["--me", "--noheader", "--array", "--format=%T %i"]);
-        command.args(["--name", &self.name, "--states", &states]);
+        command.args(["--me", "--noheader", "--array", "--format=%T %i %k"]);
+        command.args(["--name", &self.name, "--states=all"]);
         let output = finished("squeue", command, "").await?;
         Ok(Tasks::of(&String::from_utf8_lossy(&output.stdout)))
     }
 
-    /// Submits so many workers as job arrays.
+    /// Submits so many workers as job arrays, each of which is noted.
     ///
     /// # Errors
-    /// [`SlurmError`]; some may have been submitted.
-    pub async fn submit(&self, mut workers: u64) -> Result<(), SlurmError> {
+    /// [`SlurmError`]; some may have been submitted, which is noted, too.
+    pub async fn submit(
+        &self,
+        mut workers: u64,
+        submissions: &mut Submissions,
+    ) -> Result<(), SlurmError> {
         while workers > 0 {
             let tasks = workers.min(LONGEST_ARRAY);
+            let key = submissions.begin(tasks, Instant::now());
             let mut command = Command::new("sbatch");
             command.args(["--parsable", &format!("--array=1-{tasks}")]);
-            finished("sbatch", command, &self.script()).await?;
+            command.arg(format!("--comment={key}"));
+            let submitted = finished("sbatch", command, &self.script()).await;
+            if let Err(SlurmError::Run { .. }) = submitted {
+                submissions.not_sent(&key);
+            }
+            submitted?;
             workers -= tasks;
         }
         Ok(())
@@ -204,10 +223,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn failed_tasks_are_no_workers() {
-        let listed = "RUNNING 7_1\nPENDING 7_2\nFAILED 7_3\nNODE_FAIL 8\nCOMPLETING 9_1\n";
-        let failed = ["7_3", "8"].map(str::to_owned).into();
-        assert_eq!(Tasks::of(listed), Tasks { present: 3, failed });
+    fn failed_and_ended_tasks_are_no_workers() {
+        let listed = "RUNNING 7_1 a\nPENDING 7_2 a\nFAILED 7_3 a\nNODE_FAIL 8 b\nCOMPLETING 9_1 c\n\
+            CANCELLED 10_1 d\nCOMPLETED 11 \n";
+        let tasks = Tasks {
+            present: 3,
+            failed: ["7_3", "8"].map(str::to_owned).into(),
+            submissions: ["a", "b", "c", "d"].map(str::to_owned).into(),
+        };
+        assert_eq!(Tasks::of(listed), tasks);
         assert_eq!(Tasks::of(""), Tasks::default());
     }
 
