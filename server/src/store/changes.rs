@@ -3,6 +3,9 @@
 use tokio::sync::broadcast;
 use uuid::Uuid;
 
+/// Stands for all jobs where it is not known which of them have changed.
+pub(in crate::store) const ANY_JOB: Uuid = Uuid::nil();
+
 /// Changes of one job, from the time of the subscription.
 #[derive(Debug)]
 pub struct Changes {
@@ -18,7 +21,8 @@ impl Changes {
 
     /// Returns when the job has changed, or when so many other changes were missed that it may have.
     pub async fn next(&mut self) {
-        while self.changed.recv().await.is_ok_and(|id| id != self.id) {}
+        let is_other = |id| id != self.id && id != ANY_JOB;
+        while self.changed.recv().await.is_ok_and(is_other) {}
     }
 }
 

@@ -40,6 +40,7 @@ mod columns;
 mod file_objects;
 mod files;
 mod leases;
+mod notifications;
 mod object_names;
 mod objects;
 mod order;

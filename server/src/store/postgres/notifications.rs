@@ -1,5 +1,6 @@
 //! Changes that the processes which serve a database tell each other. Not in the transactions that make them: a notification in a
-//! transaction holds a lock through its commit, so that commits would follow each other. What is missed is found by the next look.
+//! transaction holds a lock through its commit, so that commits would follow each other. What is missed while nobody listens is made up
+//! for: after each connection all jobs may have changed, and any may wait.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -12,6 +13,7 @@ use tokio::time::sleep;
 use uuid::Uuid;
 
 use crate::store::StoreError;
+use crate::store::changes::ANY_JOB;
 use crate::store::local::Told;
 
 const CHANNEL: &str = "fretwear_changes";
@@ -69,8 +71,13 @@ async fn listen(
 ) -> Result<(), StoreError> {
     let mut listener = PgListener::connect_with(pool).await?;
     listener.listen(CHANNEL).await?;
+    missed(changes, waiting);
     loop {
-        let notification = listener.recv().await?;
+        let Some(notification) = listener.try_recv().await? else {
+            // The connection was lost, and there is another one.
+            missed(changes, waiting);
+            continue;
+        };
         let Some((from, text)) = notification.payload().split_once(' ') else {
             continue;
         };
@@ -86,6 +93,14 @@ async fn listen(
             }
         }
     }
+}
+
+/// Lets everybody look who waits for a change.
+fn missed(changes: &broadcast::Sender<Uuid>, waiting: &Notify) {
+    // Without a subscriber this is not an error.
+    let _ = changes.send(ANY_JOB);
+    waiting.notify_waiters();
+    waiting.notify_one();
 }
 
 fn text(told: Told) -> String {

@@ -15,8 +15,8 @@ use crate::store::{Claim, ClaimRequest};
 use crate::worker::Employer;
 use crate::worker::protocol::{ClaimBody, LONGEST_WAIT, MAX_SLOTS, PROGRAM, lease_length};
 
-/// Interval at which a waiting request looks for a job, in case it missed a notification.
-const POLL_INTERVAL: Duration = Duration::from_secs(5);
+/// Interval at which a waiting request looks for a job, in case it missed a notification: none waits 5 s longer for that.
+const POLL_INTERVAL: Duration = Duration::from_secs(4);
 
 /// The worker cannot work for this service.
 #[derive(Debug, thiserror::Error)]
