@@ -160,16 +160,6 @@ pub enum ListedJob {
     Short(Box<JobOverview>),
 }
 
-impl ListedJob {
-    /// Identifier.
-    pub fn id(&self) -> Uuid {
-        match self {
-            Self::Full(job) => job.id,
-            Self::Short(job) => job.id,
-        }
-    }
-}
-
 /// Jobs in the order that was asked for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct JobList {

@@ -34,7 +34,6 @@ use axum::http::{HeaderValue, Method, Uri, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 use axum::{Router, middleware};
-use tokio::sync::Semaphore;
 use tower_http::set_header::SetResponseHeaderLayer;
 use tower_http::trace::TraceLayer;
 
@@ -48,25 +47,20 @@ pub use listener::serve;
 pub use tls::{Tls, TlsError};
 pub(crate) use worker_registry::WorkerRegistry;
 
-/// Maximum number of concurrent requests, over all connections; more wait, except those for the health and claims of workers. Event streams count until their response
-/// starts; long polls have a lower limit of their own.
-const MAX_REQUESTS: usize = 1024;
 /// `Content-Security-Policy` of everything but the pages: a browser loads and runs nothing.
 const DEFAULT_CONTENT_POLICY: &str = "default-src 'none'; frame-ancestors 'none'";
-/// Paths whose requests do not wait for others: those for the health, and claims of workers, which wait for jobs.
-const UNLIMITED: [&str; 3] = ["/healthz", "/readyz", "/v1/worker/claims"];
 
 /// Router of all routes.
 pub fn router(app: App) -> Router {
     let access = middleware::from_fn_with_state(app.access.clone(), access::check);
     let worker_access = middleware::from_fn_with_state(app.clone(), worker_access::check);
     let requests = middleware::from_fn_with_state(app.clone(), bodies::admit);
-        .route_layer(requests)
     let disk_space = middleware::map_response_with_state(app.clone(), disk_space::explain);
     let metrics = Arc::clone(app.store.metrics());
     let observed = middleware::from_fn_with_state(metrics, observe);
     table::routes_and_document()
         .0
+        .route_layer(requests)
         .route_layer(observed)
         .fallback(no_such_path)
         .method_not_allowed_fallback(wrong_method)
@@ -76,7 +70,6 @@ pub fn router(app: App) -> Router {
         .layer(middleware::map_request(compression::accept_identity))
         .layer(worker_access)
         .layer(access)
-        .layer(requests)
         .layer(SetResponseHeaderLayer::if_not_present(
             header::CONTENT_SECURITY_POLICY,
             HeaderValue::from_static(DEFAULT_CONTENT_POLICY),
@@ -101,21 +94,6 @@ async fn observe(
     let status = response.status().as_u16();
     metrics.answered(method.as_str(), route.as_str(), status, began.elapsed());
     response
-}
-
-/// Middleware that limits the number of concurrent requests.
-async fn limit_requests(
-    State(permits): State<Arc<Semaphore>>,
-    request: Request,
-    next: Next,
-) -> Response {
-    // The semaphore is never closed.
-    let _permit = if UNLIMITED.contains(&request.uri().path()) {
-        None
-    } else {
-        permits.acquire().await.ok()
-    };
-    next.run(request).await
 }
 
 async fn no_such_path(uri: Uri) -> Response {

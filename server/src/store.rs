@@ -69,6 +69,7 @@ mod job_ids;
 mod jobs;
 mod leases;
 mod limits;
+mod list_order;
 mod local;
 mod migrations;
 mod new_row;
@@ -101,14 +102,15 @@ pub use disk::DataDisk;
 pub use error::StoreError;
 pub use integrity::IntegrityError;
 pub use jobs::{
-    Cancelled, Changed, Deleted, Filter, NewJob, Order, OrderKey, RequestKey, Retried, StoredJob,
-    SubmitOptions, Submitted,
+    Cancelled, Changed, Deleted, Filter, NewJob, RequestKey, Retried, StoredJob, SubmitOptions,
+    Submitted,
 };
 pub use leases::{
     Claim, ClaimRequest, ClaimedCheckpoint, End, EventName, JobUpdate, Lease, LeaseState,
     Reclaimed, RequestNumber, Write, WriteKind,
 };
 pub use limits::Limits;
+pub use list_order::{ListPlace, Listed, Order, OrderKey, OrderValue};
 pub use operations::{Store, shown_address};
 pub use results::{Chunks, Content, ContentError, NewContent, NewFile, SnapshotPart, StoredEvent};
 pub use sqlite::OWNER_HEARTBEAT;

@@ -13,10 +13,10 @@ use crate::http::worker_registry::WorkerRegistry;
 use crate::store::Store;
 use crate::supervision::Supervisor;
 
-/// Maximum number of waiting long polls; another one is answered at once, as if it had timed out.
 /// Maximum number of concurrent requests, over all connections; more wait. Event streams count until their response starts; long polls
 /// have a lower limit of their own.
 pub(super) const MAX_REQUESTS: usize = 1024;
+/// Maximum number of waiting long polls; another one is answered at once, as if it had timed out.
 pub(super) const MAX_LONG_POLLS: usize = 768;
 /// Maximum number of open event streams.
 pub(super) const MAX_STREAMS: usize = 1024;
@@ -43,9 +43,9 @@ pub struct App {
     /// Slots to expand a study into its jobs.
     pub(super) expansion_slots: Slots,
     pub(super) long_poll_permits: Arc<Semaphore>,
-    pub(super) stream_permits: Arc<Semaphore>,
     /// Permits of requests whose body has arrived.
     pub(super) request_permits: Arc<Semaphore>,
+    pub(super) stream_permits: Arc<Semaphore>,
     /// Processes with remote workers.
     pub(crate) workers: Arc<WorkerRegistry>,
 }
@@ -68,8 +68,8 @@ impl App {
             archive_slots: Slots::new(MAX_ARCHIVES),
             expansion_slots: Slots::new(MAX_EXPANSIONS),
             long_poll_permits: Arc::new(Semaphore::new(MAX_LONG_POLLS)),
-            stream_permits: Arc::new(Semaphore::new(MAX_STREAMS)),
             request_permits: Arc::new(Semaphore::new(MAX_REQUESTS)),
+            stream_permits: Arc::new(Semaphore::new(MAX_STREAMS)),
             workers: Arc::default(),
         }
     }

@@ -1,9 +1,10 @@
-//! Pagination of lists. A page token holds a digest of the list's filters and where the page ends: its last entry where the newest come first,
-//! the number of entries up to there in any other order, whose entries can change their places between two pages.
+//! Pagination of lists. A page token holds a digest of the list's filters and the place of the last entry of the page in the order of the
+//! list. The next page begins behind that place, whatever has been added or removed since.
 
-use std::mem;
-
-use uuid::Uuid;
+use base64::Engine as _;
+use base64::prelude::BASE64_URL_SAFE_NO_PAD;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use crate::export::files;
 use crate::http::problem::{ProblemType, RouteError};
@@ -32,37 +33,18 @@ impl RouteError for PageError {
     const TYPE: ProblemType = ProblemType::INVALID_QUERY;
 }
 
-/// Length and start of a page of a list.
+/// Length and start of a page of a list, whose entries have places of a type.
 #[derive(Debug)]
-pub(super) struct Page {
+pub(super) struct Page<P> {
     digest: String,
     limit: u32,
-    start: Start,
+    after: Option<P>,
 }
 
-/// Where a page starts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Start {
-    /// Behind the last entry of the page before, which has older ones; at the newest entry if there is none.
-    Before(Option<Uuid>),
-    /// Behind so many entries.
-    Behind(u32),
-}
-
-impl Page {
-    /// Parses the parameters of a page of a list whose newest entries come first; `list` is a text that is unique to the list and its filters.
+impl<P: Serialize + DeserializeOwned> Page<P> {
+    /// Parses the parameters of a page; `list` is a text that is unique to the list, its filters and its order.
     pub(super) fn parse(
         list: &str,
-        limit: Option<&str>,
-        token: Option<&str>,
-    ) -> Result<Self, PageError> {
-        Self::parse_from(list, Start::Before(None), limit, token)
-    }
-
-    /// The same of a list whose first page starts so.
-    pub(super) fn parse_from(
-        list: &str,
-        first: Start,
         limit: Option<&str>,
         token: Option<&str>,
     ) -> Result<Self, PageError> {
@@ -72,32 +54,17 @@ impl Page {
             return Err(PageError::Limit(limit));
         }
         let digest = files::sha256(list.as_bytes())[..8].to_owned();
-        let start = match token.map(|token| parse_token(token, &digest)).transpose()? {
-            None => first,
-            Some(found) if mem::discriminant(&found) == mem::discriminant(&first) => found,
-            Some(_) => return Err(PageError::Token),
-        };
+        let after = token.map(|token| place(token, &digest).ok_or(PageError::Token));
         Ok(Self {
             digest,
             limit,
-            start,
+            after: after.transpose()?,
         })
     }
 
-    /// The last entry of the page before, if the page starts behind one.
-    pub(super) fn before(&self) -> Option<Uuid> {
-        match self.start {
-            Start::Before(before) => before,
-            Start::Behind(_) => None,
-        }
-    }
-
-    /// The number of entries that the page starts behind, if they are counted.
-    pub(super) fn skipped(&self) -> u32 {
-        match self.start {
-            Start::Before(_) => 0,
-            Start::Behind(skipped) => skipped,
-        }
+    /// The place of the last entry of the page before; none of the first page.
+    pub(super) fn after(&self) -> Option<&P> {
+        self.after.as_ref()
     }
 
     /// Entries to query: one more than the page has, which shows whether there is a next page.
@@ -106,29 +73,28 @@ impl Page {
     }
 
     /// Truncates queried entries to the page, and returns the token of the next page, if there is one.
+    ///
+    /// # Errors
+    /// Those of the JSON of a place.
     pub(super) fn truncate<T>(
         &self,
         entries: &mut Vec<T>,
-        id: impl Fn(&T) -> Uuid,
-    ) -> Option<String> {
+        place: impl Fn(&T) -> P,
+    ) -> Result<Option<String>, serde_json::Error> {
         let limit = usize::try_from(self.limit).unwrap_or(usize::MAX);
         let more = entries.len() > limit;
         entries.truncate(limit);
-        let last = entries.last().filter(|_| more)?;
-        let end = match self.start {
-            Start::Before(_) => id(last).simple().to_string(),
-            Start::Behind(skipped) => format!("{:08x}", skipped.saturating_add(self.limit)),
+        let Some(last) = entries.last().filter(|_| more) else {
+            return Ok(None);
         };
-        Some(format!("{}{end}", self.digest))
+        let end = BASE64_URL_SAFE_NO_PAD.encode(serde_json::to_vec(&place(last))?);
+        Ok(Some(format!("{}{end}", self.digest)))
     }
 }
 
-fn parse_token(token: &str, digest: &str) -> Result<Start, PageError> {
-    let end = token.strip_prefix(digest).ok_or(PageError::Token)?;
-    let start = match end.len() {
-        32 => Uuid::parse_str(end).ok().map(|id| Start::Before(Some(id))),
-        8 => u32::from_str_radix(end, 16).ok().map(Start::Behind),
-        _ => None,
-    };
-    start.ok_or(PageError::Token)
+/// The place in a token of the list with this digest.
+fn place<P: DeserializeOwned>(token: &str, digest: &str) -> Option<P> {
+    let end = token.strip_prefix(digest)?;
+    let json = BASE64_URL_SAFE_NO_PAD.decode(end).ok()?;
+    serde_json::from_slice(&json).ok()
 }

@@ -5,6 +5,8 @@ use api::plan::Plan;
 use api::spec::Spec;
 use uuid::Uuid;
 
+use crate::store::list_order::{ListPlace, Order};
+
 /// A job to be queued.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NewJob {
@@ -66,51 +68,12 @@ pub struct Filter {
     pub text: Option<String>,
     /// Order of the jobs.
     pub order: Order,
-    /// Jobs older than this one; only of the order by creation, newest first.
-    pub before: Option<Uuid>,
-    /// Jobs that are left out at the beginning.
-    pub skipped: u32,
+    /// Jobs behind this place.
+    pub after: Option<ListPlace>,
+    /// Time until which durations are counted, ms since 1970: pages of a list have the same.
+    pub as_of_ms: i64,
     /// Largest number of jobs.
     pub limit: u32,
-}
-
-/// Order of a list; among equals, and among those without a value, the newest first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Order {
-    /// What the jobs are ordered by.
-    pub key: OrderKey,
-    /// Whether the largest value comes first; jobs without one come last in either direction.
-    pub descending: bool,
-}
-
-impl Default for Order {
-    fn default() -> Self {
-        Self {
-            key: OrderKey::Created,
-            descending: true,
-        }
-    }
-}
-
-/// What a list is ordered by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum OrderKey {
-    /// Time of submission.
-    Created,
-    /// Name, whatever the case of ASCII letters.
-    Name,
-    /// Kind of system.
-    System,
-    /// Status, by its name.
-    Status,
-    /// Part of the cycles that is done.
-    Progress,
-    /// Deepest wear of both sides.
-    Wear,
-    /// Cycles until the first criterion of life was reached.
-    Life,
-    /// Time from the first claim to the end, or to now.
-    Duration,
 }
 
 /// Effect of a cancel request.

@@ -44,6 +44,7 @@ mod notifications;
 mod object_names;
 mod objects;
 mod order;
+mod pages;
 mod roles;
 mod verification;
 mod workers;

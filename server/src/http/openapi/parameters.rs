@@ -32,8 +32,8 @@ fn keywords(name: &str) -> Option<Value> {
         // Not the `int64` of the library.
         "cycle" => json!({"format": "uint64", "maximum": u64::MAX}),
         "created_from" | "created_before" => json!({"format": "date-time"}),
-        // A digest of the filters, and an id.
-        "page_token" => json!({"pattern": "^[0-9a-f]{40}$"}),
+        // A digest of the filters, and a place in the list.
+        "page_token" => json!({"pattern": "^[0-9a-f]{8}[0-9A-Za-z_-]+$"}),
         "wait" => {
             json!({"pattern": "^0*(([1-5]?[0-9]|60)s?|([1-5]?[0-9]{1,4}|60000)ms)$"})
         }

@@ -7,8 +7,8 @@ use uuid::Uuid;
 use crate::store::operations::operations;
 use crate::store::{
     BatchDetail, BatchFilter, BatchJob, BatchOverview, BatchPart, Cancelled, Deleted, Expansion,
-    Filter, NewBatch, NewJob, Portion, RequestKey, Retried, StoreError, StoredBatch, StoredJob,
-    Submitted,
+    Filter, Listed, NewBatch, NewJob, Portion, RequestKey, Retried, StoreError, StoredBatch,
+    StoredJob, Submitted,
 };
 
 operations! {
@@ -37,17 +37,23 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn job(&self, id: Uuid) -> Result<Option<StoredJob>, StoreError>;
 
-    /// Returns the jobs that pass a filter, newest first.
+    /// Returns the jobs that pass a filter, in its order.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn list(&self, filter: &Filter) -> Result<Vec<Job>, StoreError>;
+    pub async fn list(&self, filter: &Filter) -> Result<Vec<Listed<Job>>, StoreError>;
 
     /// Returns the same in short.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn list_short(&self, filter: &Filter) -> Result<Vec<JobOverview>, StoreError>;
+    pub async fn list_short(&self, filter: &Filter) -> Result<Vec<Listed<JobOverview>>, StoreError>;
+
+    /// The present time, by which jobs are dated, ms since 1970.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn present_ms(&self) -> Result<i64, StoreError>;
 
     /// Counts the jobs that pass a filter, whatever its page.
     ///

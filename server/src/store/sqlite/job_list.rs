@@ -1,32 +1,52 @@
 //! Lists of jobs.
 
+use std::future::{Ready, ready};
+
 use api::job::{Job, JobOverview};
 use api::service::LabelInUse;
-use sqlx::sqlite::SqliteRow;
-use sqlx::{QueryBuilder, Sqlite, SqlitePool};
+use sqlx::{QueryBuilder, Sqlite};
 
-use crate::clock::now_ms;
 use crate::store::document::document;
 use crate::store::job_ids::{first_created_at, first_created_before};
+use crate::store::list_order::{ORDER_VALUE, OrderKind, place};
 use crate::store::overview::overview;
 use crate::store::sqlite::SqliteStore;
-use crate::store::sqlite::selects::{LIFE_CYCLES, select, select_overview};
-use crate::store::{Filter, OrderKey, StoreError};
+use crate::store::sqlite::selects::{self, DOCUMENT, LIFE_CYCLES};
+use crate::store::{Filter, ListPlace, Listed, OrderKey, OrderValue, StoreError};
 
 impl SqliteStore {
-    pub(in crate::store) async fn list(&self, filter: &Filter) -> Result<Vec<Job>, StoreError> {
-        let query = filtered(select(), filter);
-        let rows = fetch(query, &self.readers).await?;
-        rows.iter().map(|row| document(&self.local, row)).collect()
+    pub(in crate::store) async fn list(
+        &self,
+        filter: &Filter,
+    ) -> Result<Vec<Listed<Job>>, StoreError> {
+        let mut query = listing(DOCUMENT, filter);
+        let rows = query.build().fetch_all(&self.readers).await?;
+        let listed = |row: &_| {
+            Ok(Listed {
+                job: document(&self.local, row)?,
+                place: place(row, filter.order.key)?,
+            })
+        };
+        rows.iter().map(listed).collect()
     }
 
     pub(in crate::store) async fn list_short(
         &self,
         filter: &Filter,
-    ) -> Result<Vec<JobOverview>, StoreError> {
-        let query = filtered(select_overview(), filter);
-        let rows = fetch(query, &self.readers).await?;
-        rows.iter().map(|row| overview(&self.local, row)).collect()
+    ) -> Result<Vec<Listed<JobOverview>>, StoreError> {
+        let mut query = listing(&selects::overview(), filter);
+        let rows = query.build().fetch_all(&self.readers).await?;
+        let listed = |row: &_| {
+            Ok(Listed {
+                job: overview(&self.local, row)?,
+                place: place(row, filter.order.key)?,
+            })
+        };
+        rows.iter().map(listed).collect()
+    }
+
+    pub(in crate::store) fn present_ms(&self) -> Ready<Result<i64, StoreError>> {
+        ready(Ok(self.local.clock.now().system_ms))
     }
 
     pub(in crate::store) async fn count(&self, filter: &Filter) -> Result<u64, StoreError> {
@@ -51,21 +71,27 @@ impl SqliteStore {
     }
 }
 
-async fn fetch(
-    mut query: QueryBuilder<Sqlite>,
-    readers: &SqlitePool,
-) -> Result<Vec<SqliteRow>, sqlx::Error> {
-    query.build().fetch_all(readers).await
-}
-
-/// Completes a query of jobs by the conditions, the order and the limits of a filter.
-fn filtered(mut query: QueryBuilder<Sqlite>, filter: &Filter) -> QueryBuilder<Sqlite> {
-    push_conditions(&mut query, filter);
-    if let Some(before) = filter.before {
-        query.push(" AND id < ").push_bind(before.to_string());
+/// A query of columns of jobs by the conditions, the order and the limits of a filter, with what they are ordered by.
+fn listing(columns: &str, filter: &Filter) -> QueryBuilder<Sqlite> {
+    let mut query = QueryBuilder::new(format!("SELECT {columns}"));
+    match filter.order.key.kind() {
+        OrderKind::Id => {}
+        OrderKind::Text => {
+            query.push(", ");
+            push_order_key(&mut query, filter);
+            query.push(format!(" AS {ORDER_VALUE}"));
+        }
+        OrderKind::Number => {
+            query.push(", CAST(");
+            push_order_key(&mut query, filter);
+            query.push(format!(" AS REAL) AS {ORDER_VALUE}"));
+        }
     }
+    query.push(" FROM jobs");
+    push_conditions(&mut query, filter);
+    push_place(&mut query, filter);
     query.push(" ORDER BY ");
-    push_order_key(&mut query, filter.order.key);
+    push_order_key(&mut query, filter);
     query.push(if filter.order.descending {
         " DESC NULLS LAST"
     } else {
@@ -75,13 +101,59 @@ fn filtered(mut query: QueryBuilder<Sqlite>, filter: &Filter) -> QueryBuilder<Sq
         query.push(", id DESC");
     }
     query.push(" LIMIT ").push_bind(filter.limit);
-    query.push(" OFFSET ").push_bind(filter.skipped);
     query
 }
 
+/// Appends that jobs are behind the place of a filter: they have a value further on in its order, the same value and a smaller id, or no
+/// value.
+fn push_place(query: &mut QueryBuilder<Sqlite>, filter: &Filter) {
+    let Some(ListPlace { id, value }) = &filter.after else {
+        return;
+    };
+    let further = if filter.order.descending {
+        " < "
+    } else {
+        " > "
+    };
+    match value {
+        None if filter.order.key == OrderKey::Created => {
+            query
+                .push(" AND id")
+                .push(further)
+                .push_bind(id.to_string());
+        }
+        None => {
+            query.push(" AND ");
+            push_order_key(query, filter);
+            query.push(" IS NULL AND id < ").push_bind(id.to_string());
+        }
+        Some(value) => {
+            query.push(" AND (");
+            push_order_key(query, filter);
+            query.push(further);
+            push_value(query, value);
+            query.push(" OR ");
+            push_order_key(query, filter);
+            query.push(" = ");
+            push_value(query, value);
+            query.push(" AND id < ").push_bind(id.to_string());
+            query.push(" OR ");
+            push_order_key(query, filter);
+            query.push(" IS NULL)");
+        }
+    }
+}
+
+fn push_value(query: &mut QueryBuilder<Sqlite>, value: &OrderValue) {
+    match value {
+        OrderValue::Number(number) => query.push_bind(*number),
+        OrderValue::Text(text) => query.push_bind(text.clone()),
+    };
+}
+
 /// Appends what jobs are ordered by; ids are ordered by their time of creation.
-fn push_order_key(query: &mut QueryBuilder<Sqlite>, key: OrderKey) {
-    let expression = match key {
+fn push_order_key(query: &mut QueryBuilder<Sqlite>, filter: &Filter) {
+    let expression = match filter.order.key {
         OrderKey::Created => "id",
         OrderKey::Name => "lower(spec ->> '$.name')",
         OrderKey::System => "system",
@@ -92,8 +164,15 @@ fn push_order_key(query: &mut QueryBuilder<Sqlite>, key: OrderKey) {
         }
         OrderKey::Life => LIFE_CYCLES,
         OrderKey::Duration => {
-            query.push("coalesce(finished_at, ").push_bind(now_ms());
-            ") - started_at"
+            // The same on all pages, also of jobs that start or end meanwhile.
+            query
+                .push("(CASE WHEN started_at <= ")
+                .push_bind(filter.as_of_ms);
+            query
+                .push(" THEN min(coalesce(finished_at, ")
+                .push_bind(filter.as_of_ms);
+            query.push("), ").push_bind(filter.as_of_ms);
+            ") - started_at END)"
         }
     };
     query.push(expression);

@@ -7,6 +7,7 @@ use axum::Json;
 use axum::extract::State;
 use serde::Deserialize;
 use utoipa::IntoParams;
+use uuid::Uuid;
 
 use crate::batch::Kind;
 use crate::http::app::App;
@@ -76,14 +77,14 @@ async fn page(
     query: &ListBatchesQuery,
 ) -> Result<(Vec<BatchOverview>, Option<String>), ProblemResponse> {
     let (limit, token) = (query.limit.as_deref(), query.page_token.as_deref());
-    let page = Page::parse(kind.collection(), limit, token)?;
+    let page = Page::<Uuid>::parse(kind.collection(), limit, token)?;
     let filter = BatchFilter {
         with_plan: kind.has_plan(),
-        before: page.before(),
+        before: page.after().copied(),
         limit: page.query_limit(),
     };
     let mut batches = app.store.batches(filter).await?;
-    let next_page_token = page.truncate(&mut batches, |batch| batch.id);
+    let next_page_token = page.truncate(&mut batches, |batch| batch.id)?;
     let batches = batches.into_iter().map(|batch| BatchOverview {
         id: batch.id,
         name: batch.name,

@@ -1,21 +1,26 @@
 //! `GET /v1/jobs`: jobs, newest first or in another order.
 
+use std::ops::RangeInclusive;
+
 use api::job::{JobList, ListedJob, Status};
 use api::spec::{StringEnum, SystemKind};
 use axum::Json;
 use axum::extract::State;
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 use uuid::Uuid;
 
 use crate::http::app::App;
 use crate::http::extract::Params;
-use crate::http::paging::{Page, Start};
+use crate::http::paging::{Page, PageError};
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::spec;
-use crate::store::{Filter, Order, OrderKey};
+use crate::store::{Filter, ListPlace, Listed, Order, OrderKey};
 use crate::text::shortened;
 
+/// Times that a page token can hold, ms since 1970: differences of them are numbers of every database.
+const TIMES_MS: RangeInclusive<i64> = 0..=1 << 53;
 /// Maximum number of labels of a filter.
 const MAX_LABELS: usize = 16;
 
@@ -106,8 +111,8 @@ pub(crate) struct ListQuery {
     #[param(min_length = 1, max_length = 200)]
     text: Option<String>,
     /// What the jobs are ordered by, the smallest first, or with a `-` in front the largest: `created`, `name`, `system`, `status`, `progress`,
-    /// `wear` (the deeper one of both sides), `life` (cycles until the first criterion) or `duration`; `-created` by default. Jobs without a value come last. Only in the order by
-    /// creation a page begins exactly where the one before has ended: in the others, jobs that change between two pages can be listed twice or not at all.
+    /// `wear` (the deeper one of both sides), `life` (cycles until the first criterion) or `duration`; `-created` by default. Jobs without a value come last. A page
+    /// begins behind the last job of the one before: only a job whose own value changes between two pages can be listed twice or not at all.
     #[param(pattern = "^-?(created|name|system|status|progress|wear|life|duration)$")]
     sort: Option<String>,
     /// Whether the jobs of all pages are counted.
@@ -131,6 +136,14 @@ pub(crate) enum View {
     Short,
     /// The job documents.
     Full,
+}
+
+/// ListPlace of the last job of a page.
+#[derive(Debug, Serialize, Deserialize)]
+struct JobPlace {
+    place: ListPlace,
+    /// Time until which durations are counted.
+    as_of_ms: i64,
 }
 
 /// A parsed query.
@@ -164,32 +177,45 @@ pub(crate) async fn list(
         limit,
         token,
     } = parse(&pairs)?;
-    let first = if filter.order == Order::default() {
-        Start::Before(None)
-    } else {
-        Start::Behind(0)
-    };
-    let page = Page::parse_from(&format!("{filter:?}"), first, limit, token)?;
+    let page = Page::<JobPlace>::parse(&format!("{filter:?}"), limit, token)?;
     let total = if total {
         Some(app.store.count(&filter).await?)
     } else {
         None
     };
-    (filter.before, filter.skipped) = (page.before(), page.skipped());
+    if let Some(JobPlace { place, as_of_ms }) = page.after() {
+        if !filter.order.key.has(place) || !TIMES_MS.contains(as_of_ms) {
+            return Err(PageError::Token.into());
+        }
+        (filter.after, filter.as_of_ms) = (Some(place.clone()), *as_of_ms);
+    } else if filter.order.key == OrderKey::Duration {
+        filter.as_of_ms = app.store.present_ms().await?;
+    }
     filter.limit = page.query_limit();
-    let mut jobs: Vec<ListedJob> = match view {
+    let mut jobs: Vec<Listed<ListedJob>> = match view {
         View::Short => {
             let jobs = app.store.list_short(&filter).await?.into_iter();
-            jobs.map(|job| ListedJob::Short(Box::new(job))).collect()
+            jobs.map(|Listed { job, place }| Listed {
+                job: ListedJob::Short(Box::new(job)),
+                place,
+            })
+            .collect()
         }
         View::Full => {
             let jobs = app.store.list(&filter).await?.into_iter();
-            jobs.map(|job| ListedJob::Full(Box::new(job))).collect()
+            jobs.map(|Listed { job, place }| Listed {
+                job: ListedJob::Full(Box::new(job)),
+                place,
+            })
+            .collect()
         }
     };
-    let next_page_token = page.truncate(&mut jobs, ListedJob::id);
+    let next_page_token = page.truncate(&mut jobs, |job| JobPlace {
+        place: job.place.clone(),
+        as_of_ms: filter.as_of_ms,
+    })?;
     Ok(Json(JobList {
-        jobs,
+        jobs: jobs.into_iter().map(|listed| listed.job).collect(),
         next_page_token,
         total,
     }))
