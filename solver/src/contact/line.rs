@@ -8,7 +8,8 @@
 //!
 //! * traction on the slider per dx: p N - q T, with the true pressure p and the true shear q;
 //! * vertical gap g and tangential slip sigma = T . (relative displacement since the last increment);
-//! * Archard per dx: vertical recession = k p |sigma|, energy = |q sigma|.
+//! * Archard per dx: vertical recession = k p |sigma|, energy = |q sigma|;
+//! * slip along the line besides: `slip_along`.
 //!
 //! A jump u of the surfaces, slider over receptacle, changes the gap at a point of the slave by (-s', 1) . u with the
 //! slope s' of the *master*, which the jump shifts: a sticking contact stays at its position on the slave although the
@@ -37,6 +38,7 @@ mod predictor;
 mod problem;
 mod rate_contrast;
 mod response;
+mod slip_along;
 mod state;
 mod status;
 mod unknown;

@@ -21,7 +21,7 @@ use crate::SolveError;
 use crate::ale;
 use crate::along_line::Along;
 use crate::condensation::{Antiplane, Condensed, OperatorError};
-use crate::contact::ContactState;
+use crate::contact::{self, ContactState};
 use crate::mesh::columns::Cell;
 use crate::model::{BodyModel, Model, Tangential, ZoneModel};
 use crate::scene::LineShape;
@@ -192,10 +192,14 @@ impl<'a> Placed<'a> {
         let zone = self.zone(side);
         let first = self.body(side).first_node(zone);
         let nodes = first..first + zone.zone.nodes();
-        let widths = &self.section.condensed.operators.of(side).widths[nodes.clone()];
-        let carried = self.carried.of(side)[nodes].iter().zip(widths);
+        let operators = self.section.condensed.operators.of(side);
+        let slopes = contact::slopes(operators, self.section.depth.of(side), side);
+        let lengths = nodes
+            .clone()
+            .map(|i| operators.widths[i] * slopes[i].hypot(1.0));
+        let carried = self.carried.of(side)[nodes].iter().zip(lengths);
         let force: Vec<f64> = carried
-            .map(|(carried, width)| width * carried.shear_mpa[2])
+            .map(|(carried, length)| length * carried.shear_mpa[2])
             .collect();
         // Without a part of the friction in the contact nothing deforms by it.
         let deforms = self.section.model.interface.tangential != Tangential::Omitted;

@@ -200,13 +200,8 @@ impl Station {
         let widths = &pair.slave().widths[*done.first.of(slave)..];
         let path: f64 = done.path.iter().zip(widths).map(|(e, d)| e * d).sum();
         attempt.path = increment.cycles * path;
-        let moved = increment.to - increment.from;
         let [_, sin] = self.place.direction();
-        attempt.friction_along = if moved == 0.0 {
-            0.0
-        } else {
-            self.interface.friction * sin * sin * path / moved
-        };
+        attempt.friction_along = sin * done.friction_along * moved.along.signum();
         attempt.energy = increment.cycles * done.energy;
         for side in Side::BOTH {
             let recession = attempt.recession.of_mut(side);

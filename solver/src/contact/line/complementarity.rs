@@ -112,7 +112,7 @@ impl Complementarity {
         self.pressure.clear();
         self.pressure.resize(n, 0.0);
         self.slip.clear();
-        self.slip.resize(n, problem.imposed_slip());
+        self.slip.extend((0..n).map(|i| problem.imposed_slip(i)));
         self.status.clear();
         self.status.resize(n, Status::Open);
     }
@@ -151,7 +151,7 @@ impl Complementarity {
             self.slip[i] = if layout.sheared {
                 gamma * layout.length
             } else {
-                problem.imposed_slip()
+                problem.imposed_slip(i)
             };
             // Both shears are in the basis only where both slips are zero.
             let stuck = layout.sheared && (gamma <= 0.0 || (a > 0.0 && b > 0.0));

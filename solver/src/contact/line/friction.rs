@@ -3,8 +3,8 @@
 //! It is one value, or one at each node of the slave: the mean of what both surfaces have there (`law::friction`), the master's
 //! interpolated at the position of the increment. It does not change within the increment, so that Newton's Jacobian is exact.
 //!
-//! Friction opposes the slip in the tangent plane, |q| = mu p: with slip along the line besides, which is imposed, its part across the
-//! line is that of the imposed direction.
+//! Friction opposes the slip in the tangent plane, |q| = mu p. With slip along the line besides, which is imposed, its part across the line is
+//! that of a slider which follows the surface there (`slip_along`).
 
 use super::pair::{Pair, Surfaces};
 use crate::law::friction::{of_both, weighted_mean};
@@ -15,8 +15,8 @@ use crate::sides::Sides;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Coefficient<'a> {
     nodes: Nodes<'a>,
-    /// Components of the direction of friction across the line and along it, -.
-    direction: [f64; 2],
+    /// Components of the direction of friction across the line and along it at each of them, -; across it if absent.
+    directions: &'a [[f64; 2]],
 }
 
 /// The coefficients of the nodes, -.
@@ -32,51 +32,63 @@ impl<'a> Coefficient<'a> {
     /// No friction.
     pub(super) const NONE: Self = Self {
         nodes: Nodes::Uniform(0.0),
-        direction: [1.0, 0.0],
+        directions: &[],
     };
 
-    /// The law's in a direction, from the coefficients of [`interpolate`] where these differ.
+    /// The law's in these directions, from the coefficients of [`interpolate`] where these differ.
     pub(super) fn of(
         pair: &Pair<'_>,
         surfaces: &Surfaces<'_>,
         nodal: &'a [f64],
-        direction: [f64; 2],
+        directions: &'a [[f64; 2]],
     ) -> Self {
         let nodes = if surfaces.has_uniform_friction() {
             Nodes::Uniform(pair.interface.friction)
         } else {
             Nodes::Nodal(nodal)
         };
-        Self { nodes, direction }
+        Self { nodes, directions }
     }
 
     /// Friction across the line over the pressure of a coupled node.
     #[inline]
     pub(super) fn at(self, node: usize) -> f64 {
-        self.direction[0] * self.nodes.at(node)
+        self.direction(node)[0] * self.nodes.at(node)
     }
 
     /// Friction along the line over the pressure of a coupled node.
     pub(super) fn along(self, node: usize) -> f64 {
-        self.direction[1] * self.nodes.at(node)
+        self.direction(node)[1] * self.nodes.at(node)
+    }
+
+    #[inline]
+    fn direction(self, node: usize) -> [f64; 2] {
+        self.directions.get(node).copied().unwrap_or([1.0, 0.0])
     }
 
     /// The largest friction across the line over the pressure of all coupled nodes.
     pub(super) fn largest(self) -> f64 {
-        let largest = match self.nodes {
-            Nodes::Uniform(coefficient) => coefficient,
-            Nodes::Nodal(coefficients) => coefficients.iter().fold(0.0, |most, mu| mu.max(most)),
+        let nodes = match self.nodes {
+            Nodes::Uniform(coefficient) if self.directions.is_empty() => return coefficient,
+            Nodes::Uniform(_) => self.directions.len(),
+            Nodes::Nodal(coefficients) => coefficients.len(),
         };
-        self.direction[0] * largest
+        (0..nodes).fold(0.0, |most, node| self.at(node).max(most))
     }
 
     /// The mean friction across the line over the pressure, weighted by normal forces.
     pub(super) fn mean(self, forces: impl Iterator<Item = f64>) -> f64 {
-        let mean = match self.nodes {
-            Nodes::Uniform(coefficient) => coefficient,
-            Nodes::Nodal(coefficients) => weighted_mean(coefficients, forces),
-        };
-        self.direction[0] * mean
+        match self.nodes {
+            Nodes::Uniform(coefficient) if self.directions.is_empty() => coefficient,
+            Nodes::Nodal(coefficients) if self.directions.is_empty() => {
+                weighted_mean(coefficients, forces)
+            }
+            Nodes::Uniform(_) | Nodes::Nodal(_) => {
+                let forces: Vec<f64> = forces.collect();
+                let across: Vec<f64> = (0..forces.len()).map(|node| self.at(node)).collect();
+                weighted_mean(&across, forces.into_iter())
+            }
+        }
     }
 }
 

@@ -12,8 +12,9 @@ use super::outcome::{self, Increment};
 use super::pair::{Displacement, Pair, Surfaces, Zones};
 use super::pairing;
 use super::predictor::{predict, start_from};
-use super::problem::{GAP_TOLERANCE, Iterate, MOST_ITERATIONS, Problem};
+use super::problem::{GAP_TOLERANCE, Iterate, MOST_ITERATIONS, Problem, mean_slope};
 use super::response::Response;
+use super::slip_along::SlipAlong;
 use super::state::ContactState;
 use super::wear_coupling::WearCoupling;
 use super::work::Work;
@@ -40,6 +41,7 @@ pub struct Solver {
     fixed_slip: Vec<f64>,
     /// Coefficients of friction of the coupled nodes where these differ, -.
     friction: Vec<f64>,
+    along: SlipAlong,
     recession: Sides<Vec<f64>>,
     /// The window that these buffers are assembled for.
     assembled: Option<(usize, usize)>,
@@ -81,7 +83,6 @@ impl Solver {
         }
         self.assembled = self.assembled.filter(|_| to.repeated);
         let setting = Setting::new(&pair.interface, last, (slider_x, pairing_x), to.height);
-        let direction = to.direction(last.slider_x);
         let mut window = self.assembled.unwrap_or_else(|| {
             undeformed_gaps(pair, surfaces, pairing_x, covered, &mut self.undeformed);
             initial_window(pair, last, pairing_x, covered, &self.undeformed)
@@ -89,13 +90,15 @@ impl Solver {
         for _ in 0..MOST_EXTENSIONS {
             self.solve_window(pair, surfaces, last, (to, setting), window)?;
             let (geometry, it) = (&self.geometry, &self.iterate);
-            let friction = Coefficient::of(pair, surfaces, &self.friction, direction);
+            let directions = &self.along.directions;
+            let friction = Coefficient::of(pair, surfaces, &self.friction, directions);
             outcome::write(pair, geometry, it, last, (setting, friction), next);
             let touching =
                 self.touching_beside(pair, surfaces, (last, next), setting, (window, covered))?;
             if touching == window {
                 let (geometry, it) = (&self.geometry, &self.iterate);
-                let friction = Coefficient::of(pair, surfaces, &self.friction, direction);
+                let directions = &self.along.directions;
+                let friction = Coefficient::of(pair, surfaces, &self.friction, directions);
                 let recession = &mut self.recession;
                 let mut work = std::mem::take(&mut self.newton.work);
                 work.increments = 1;
@@ -230,14 +233,19 @@ impl Solver {
         let geometry = &self.geometry;
         let (pairing_x, nodes) = (setting.pairing_x, (first, end));
         friction::interpolate(pair, surfaces, pairing_x, nodes, &mut self.friction);
-        let friction = Coefficient::of(pair, surfaces, &self.friction, to.direction(last.slider_x));
+        let width = &pair.slave().widths[first..end];
+        let slope = &geometry.slopes.interface;
+        let mean = mean_slope(last, &geometry.coupling, (width, slope));
+        self.along.impose((step, to.along), (slope, mean));
+        let along = &self.along;
+        let friction = Coefficient::of(pair, surfaces, &self.friction, &along.directions);
         let problem = Problem {
             pair,
             zones,
             coupling: &geometry.coupling,
             gap: &geometry.gap,
-            width: &pair.slave().widths[first..end],
-            slope: &geometry.slopes.interface,
+            width,
+            slope,
             master_slope: &geometry.slopes.master,
             friction: friction::acting(interface, friction, step),
             tracks_slip,
@@ -249,10 +257,11 @@ impl Solver {
             travel: pair.travel(last, setting.pairing_x),
             first_load: last.reference_height.is_none(),
             step,
-            along: to.along,
+            along: &along.slip,
             height: to.height,
         };
-        let wall = problem.mean_slope_ahead(last);
+        // Positive where the slider climbs it.
+        let wall = step.signum() * mean;
         predict(&mut self.iterate, pair, last, &problem);
         if let Some(start) = to.start {
             start_from(&mut self.iterate, first, start);

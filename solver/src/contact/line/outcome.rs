@@ -25,6 +25,8 @@ pub struct Increment<'a> {
     pub worn_area: Sides<f64>,
     /// Energy dissipated by friction, N/mm mm.
     pub energy: f64,
+    /// Friction along the line in the direction of the slip, N/mm.
+    pub friction_along: f64,
     /// Vertical force on the slider, N/mm.
     pub vertical_force: f64,
     /// Where the height is given: change of the pressures of the slave's nodes from the first coupled one on per height, MPa/mm.
@@ -59,6 +61,7 @@ impl<'a> Increment<'a> {
             receptacle: 0.0,
         },
         energy: 0.0,
+        friction_along: 0.0,
         vertical_force: 0.0,
         pressure_per_height: &[],
         force_per_height: 0.0,
@@ -93,10 +96,15 @@ impl<'a> Increment<'a> {
         let mut energy = slipping
             .map(|((d, (q, slip)), _)| d * (q * slip).abs())
             .sum();
+        let mut friction_along = 0.0;
         if to.along != 0.0 {
-            for (i, (d, pressure)) in widths.iter().zip(&it.pressure).enumerate() {
-                energy += d * friction.along(i) * pressure * to.along.abs();
-            }
+            // Over the length of the surface, which the slip along the line is a multiple of.
+            let nodes = widths.iter().zip(&it.pressure).zip(&it.along).enumerate();
+            let work: f64 = nodes
+                .map(|(i, ((d, pressure), along))| d * friction.along(i) * pressure * along.abs())
+                .sum();
+            energy += work;
+            friction_along = work / to.along.abs();
         }
         let forces = &next.force.of(slave)[2 * coupling.first..2 * coupling.end];
         let vertical: f64 = forces.iter().skip(1).step_by(2).sum();
@@ -126,6 +134,7 @@ impl<'a> Increment<'a> {
             recession: recession.as_slices(),
             worn_area,
             energy,
+            friction_along,
             vertical_force: vertical,
             pressure_per_height: if to.height.is_some() {
                 response.pressure

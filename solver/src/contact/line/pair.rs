@@ -134,16 +134,6 @@ impl Displacement<'_> {
     pub(super) fn across(&self, last_x: f64) -> f64 {
         self.slider_x - last_x + self.surface_slip
     }
-
-    /// Components of the direction of the imposed slip across the line and along it, -: the friction of a slipping node opposes it.
-    pub(super) fn direction(&self, last_x: f64) -> [f64; 2] {
-        let across = self.across(last_x);
-        if self.along == 0.0 {
-            return [1.0, 0.0];
-        }
-        let length = (across * across + self.along * self.along).sqrt();
-        [across.abs() / length, self.along.abs() / length]
-    }
 }
 
 /// Worn surfaces, at the contact nodes.

@@ -18,14 +18,16 @@ pub(super) fn predict(
     // Every field is set: the result must depend on the state only, not on the last solve.
     it.indentation = last.indentation;
     it.height = problem.height.unwrap_or(last.height);
-    it.along = problem.along;
     it.tolerance = GAP_TOLERANCE;
     it.status.clear();
     it.pressure.clear();
     it.slip.clear();
-    for values in [&mut it.shear, &mut it.path, &mut it.gap] {
+    for values in [&mut it.shear, &mut it.path, &mut it.gap, &mut it.along] {
         values.clear();
         values.resize(n, 0.0);
+    }
+    if !problem.along.is_empty() {
+        it.along.copy_from_slice(problem.along);
     }
     let active = last.active_range();
     let mut next = x.partition_point(|&at| at < x[first] - problem.travel);

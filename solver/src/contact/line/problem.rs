@@ -45,8 +45,8 @@ pub(super) struct Problem<'a> {
     pub(super) first_load: bool,
     /// Imposed slip: the displacement and the additional slip of the slider's surface, mm.
     pub(super) step: f64,
-    /// Imposed slip along the line, mm.
-    pub(super) along: f64,
+    /// Imposed slip along the line over each node, per projected length, mm; none at all if absent.
+    pub(super) along: &'a [f64],
     /// The height of the slider if it is given, mm: `spring` times it less the height is then the vertical residual.
     pub(super) height: Option<f64>,
 }
@@ -57,25 +57,26 @@ impl Problem<'_> {
         if self.height.is_some() { 0.0 } else { 1.0 }
     }
 
-    /// Magnitude of the imposed slip, mm.
-    pub(super) fn imposed_slip(&self) -> f64 {
-        magnitude(self.step.abs(), self.along)
+    /// Magnitude of the imposed slip at a node, mm.
+    pub(super) fn imposed_slip(&self, node: usize) -> f64 {
+        let along = self.along.get(node).copied().unwrap_or(0.0);
+        magnitude(self.step.abs(), along)
     }
+}
 
-    /// Mean slope under the last load, positive where the slider climbs it.
-    pub(super) fn mean_slope_ahead(&self, last: &ContactState) -> f64 {
-        let (mut load, mut moment) = (0.0, 0.0);
-        let pressures = &last.pressure[self.coupling.first..self.coupling.end];
-        for ((p, width), slope) in pressures.iter().zip(self.width).zip(self.slope) {
-            load += width * p;
-            moment += width * p * slope;
-        }
-        if load > 0.0 {
-            self.step.signum() * moment / load
-        } else {
-            0.0
-        }
+/// Mean slope of the coupled nodes, of these widths and slopes, under the last load.
+pub(super) fn mean_slope(
+    last: &ContactState,
+    coupling: &Coupling,
+    (widths, slopes): (&[f64], &[f64]),
+) -> f64 {
+    let (mut load, mut moment) = (0.0, 0.0);
+    let pressures = &last.pressure[coupling.first..coupling.end];
+    for ((p, width), slope) in pressures.iter().zip(widths).zip(slopes) {
+        load += width * p;
+        moment += width * p * slope;
     }
+    if load > 0.0 { moment / load } else { 0.0 }
 }
 
 /// Iterate of the Newton method over the coupled nodes.
@@ -94,8 +95,8 @@ pub(super) struct Iterate {
     pub(super) indentation: f64,
     /// Gap residual over the indentation at which the iteration has converged.
     pub(super) tolerance: f64,
-    /// Imposed slip along the line, mm.
-    pub(super) along: f64,
+    /// Imposed slip along the line over each node, per projected length, mm.
+    pub(super) along: Vec<f64>,
 }
 
 impl Iterate {
@@ -107,14 +108,15 @@ impl Iterate {
         }
     }
 
-    /// Pressure and slip of a node in a status as a wear law takes them: no slip across the line against the direction of its status.
+    /// Pressure and slip of a node in a status as a wear law takes them.
     pub(super) fn local_state(&self, node: usize, status: Status) -> LocalState {
-        let across = (status.direction() * self.slip[node]).max(0.0);
         LocalState {
             pressure: self.pressure[node],
             slip: match status {
                 Status::Open | Status::Stick => 0.0,
-                Status::SlipRight | Status::SlipLeft => magnitude(across, self.along),
+                Status::SlipRight | Status::SlipLeft => {
+                    magnitude(self.slip_across(node, status), self.along[node])
+                }
             },
             ..LocalState::default()
         }
@@ -122,16 +124,26 @@ impl Iterate {
 
     /// Change of the magnitude of a node's slip in a status per slip across the line.
     pub(super) fn slip_direction(&self, node: usize, status: Status) -> f64 {
-        let direction = status.direction();
-        if self.along == 0.0 {
+        let (direction, along) = (status.direction(), self.along[node]);
+        if along == 0.0 {
             return direction;
         }
-        let across = (direction * self.slip[node]).max(0.0);
-        direction * across / magnitude(across, self.along)
+        let across = self.slip_across(node, status);
+        direction * across / magnitude(across, along)
+    }
+
+    /// Slip of a node across the line in the direction of a status, mm: none against it, unless it slips along the line anyway.
+    fn slip_across(&self, node: usize, status: Status) -> f64 {
+        let across = status.direction() * self.slip[node];
+        if self.along[node] == 0.0 {
+            across.max(0.0)
+        } else {
+            across
+        }
     }
 }
 
-/// Magnitude of a slip by its component across the line, which is not negative, and that along it.
+/// Magnitude of a slip by its components across the line and along it.
 fn magnitude(across: f64, along: f64) -> f64 {
     if along == 0.0 {
         across

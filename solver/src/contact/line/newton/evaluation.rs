@@ -40,7 +40,7 @@ impl Evaluation {
             if problem.tracks_slip {
                 it.slip[i] += self.slip[i];
             }
-            it.path[i] = if problem.along == 0.0 {
+            it.path[i] = if problem.along.is_empty() {
                 let slips = it.status[i].direction() * it.slip[i];
                 (it.pressure[i] * slips).max(0.0)
             } else {
