@@ -134,7 +134,8 @@ pub struct Motion {
     /// `vibration`: quality factor of that oscillation, -.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub quality_factor: Option<f64>,
-    /// `vibration`, `thermal_cycle`: play between the parts, mm, which no slip exceeds.
+    /// `vibration`, `thermal_cycle`: play between the parts, mm: their displacement ends at half of it to either side, and the contact slips
+    /// by what of that its arm does not take up.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance_mm: Option<f64>,
     /// `thermal_cycle`: change of the temperature, K.

@@ -30,41 +30,79 @@ impl HeldContact {
     }
 }
 
+/// What limits the slip of a contact.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limits {
+    /// Amplitude of the displacement of both parts that the arm takes up without slip, mm.
+    pub(super) held_mm: f64,
+    /// Amplitude at which a stop ends the displacement of both parts, mm; infinite without one.
+    pub(super) stop_mm: f64,
+}
+
+impl Limits {
+    /// No arm and no stop.
+    pub(super) const NONE: Self = Self {
+        held_mm: 0.0,
+        stop_mm: f64::INFINITY,
+    };
+
+    /// Those of an arm and of the play between both parts, mm: half of it lies to either side of the middle.
+    pub(super) fn of(held_mm: f64, clearance_mm: Option<f64>) -> Self {
+        Self {
+            held_mm,
+            stop_mm: clearance_mm.map_or(f64::INFINITY, |clearance| 0.5 * clearance),
+        }
+    }
+
+    /// Whether any displacement makes the contact slip.
+    pub(super) fn let_slip(self) -> bool {
+        self.held_mm < self.stop_mm
+    }
+}
+
 /// The displacement that is demanded of a contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Demand {
-    /// Amplitude of the displacement of both parts relative to each other, mm.
+    /// Amplitude of the displacement of both parts relative to each other without a stop, mm.
+    pub(super) free_mm: f64,
+    /// Amplitude of that displacement, mm.
     pub(super) relative_mm: f64,
     /// Amplitude that the arm takes up, mm.
     pub(super) held_mm: f64,
-    /// Amplitude of the slip without a clearance, mm.
+    /// Amplitude of the slip, mm.
     pub(super) slip_mm: f64,
     pub(super) slips_from_g: Option<f64>,
     pub(super) frequency_hz: f64,
 }
 
 impl Demand {
-    /// A displacement of which the arm takes up a part.
-    pub(super) fn beyond(relative_mm: f64, held_mm: f64, frequency_hz: f64) -> Self {
+    /// A displacement that ends at the stop, and of which the arm takes up a part: the slip is min(u, stop) - held.
+    pub(super) fn beyond(free_mm: f64, limits: Limits, frequency_hz: f64) -> Self {
+        let relative_mm = free_mm.min(limits.stop_mm);
         Self {
+            free_mm,
             relative_mm,
-            held_mm: held_mm.min(relative_mm),
-            slip_mm: (relative_mm - held_mm).max(0.0),
+            held_mm: limits.held_mm.min(relative_mm),
+            slip_mm: (relative_mm - limits.held_mm).max(0.0),
             slips_from_g: None,
             frequency_hz,
         }
     }
 
-    /// The motion that it imposes, at most that of a clearance, mm.
+    /// The motion that it imposes.
     pub(super) fn imposed(
         self,
         spec: Motion,
         drive: Drive,
-        (clearance_mm, how): (Option<f64>, &str),
+        how: &str,
         diagnostics: &mut Diagnostics,
     ) -> ImposedMotion {
-        let most = clearance_mm.map_or(f64::INFINITY, |clearance| 0.5 * clearance);
-        let amplitude_mm = self.slip_mm.min(most);
+        // Less than the least amplitude, far below the width of an atom, is no slip.
+        let amplitude_mm = if self.slip_mm < *AMPLITUDE_MM.start() {
+            0.0
+        } else {
+            self.slip_mm
+        };
         if amplitude_mm > *AMPLITUDE_MM.end() {
             let detail = format!(
                 "the contact would slip by +-{amplitude_mm:.3e} mm, {} are the most",
@@ -100,7 +138,13 @@ impl Demand {
     /// How a slip of an amplitude came about.
     fn reason(self, how: &str, amplitude_mm: f64) -> String {
         let mut parts = vec![how.to_owned()];
-        if self.relative_mm > 0.0 {
+        if self.relative_mm < self.free_mm {
+            parts.push(format!(
+                "the clearance leaves the parts +-{} of +-{} um",
+                microns(self.relative_mm),
+                microns(self.free_mm)
+            ));
+        } else if self.relative_mm > 0.0 {
             parts.push(format!(
                 "the parts move by +-{} um",
                 microns(self.relative_mm)
@@ -109,17 +153,11 @@ impl Demand {
         if self.held_mm > 0.0 {
             parts.push(format!("the arm takes up {} um", microns(self.held_mm)));
         }
-        parts.push(if self.slip_mm > 0.0 {
-            format!("the contact slips by +-{} um", microns(self.slip_mm))
+        parts.push(if amplitude_mm > 0.0 {
+            format!("the contact slips by +-{} um", microns(amplitude_mm))
         } else {
             "the contact does not slip".to_owned()
         });
-        if amplitude_mm < self.slip_mm {
-            parts.push(format!(
-                "the clearance leaves +-{} um",
-                microns(amplitude_mm)
-            ));
-        }
         parts.extend(
             self.slips_from_g
                 .map(|from| format!("slip begins at {from:.3} g")),

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use api::spec::{FourierTerm, Motion, MotionKind, Provenance};
 use solver::scene::{self, HIGHEST_ORDER, MOST_TURNS, Series, Term};
 
-use super::contact::Demand;
+use super::contact::{Demand, Limits};
 use super::imposed::{AMPLITUDE_MM, ImposedMotion, drive, period};
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::system::Preset;
@@ -53,8 +53,8 @@ pub(super) fn resolve(
     if inner > 0 {
         how = format!("{how}, which turns {inner} more times inside it");
     }
-    let demand = Demand::beyond(0.5 * (high - low), 0.0, 1.0 / period_s);
-    let outer = demand.imposed(spec, drive, (None, &how), diagnostics);
+    let demand = Demand::beyond(0.5 * (high - low), Limits::NONE, 1.0 / period_s);
+    let outer = demand.imposed(spec, drive, &how, diagnostics);
     if inner == 0 {
         return outer;
     }

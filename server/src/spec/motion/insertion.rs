@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use api::spec::{Motion, MotionKind, Waveform};
 
-use super::contact::Demand;
+use super::contact::{Demand, Limits};
 use super::imposed::{ImposedMotion, drive, period, timing};
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::assumed;
@@ -36,10 +36,10 @@ pub(super) fn resolve(
         ..Motion::default()
     };
     let period_s = period(given, assumed(PERIOD_S), &mut spec, diagnostics);
-    let demand = Demand::beyond(0.5 * wipe_mm, 0.0, 1.0 / period_s);
+    let demand = Demand::beyond(0.5 * wipe_mm, Limits::NONE, 1.0 / period_s);
     let how = "half of the wipe to either side";
     ImposedMotion {
         timing: timing(Waveform::Triangle),
-        ..demand.imposed(spec, drive, (None, how), diagnostics)
+        ..demand.imposed(spec, drive, how, diagnostics)
     }
 }

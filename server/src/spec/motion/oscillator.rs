@@ -4,14 +4,16 @@
 //! For a base acceleration of amplitude a at a frequency f, with rho = f/f_n,
 //!   u = a/w_n^2 / sqrt((1 - rho^2)^2 + (rho/Q)^2).
 //! For a random one of the power spectral density G the standard deviation s of the displacement is the root of the integral of
-//! G |u/a|^2 over f (here between the points of G, which are joined by straight lines in logarithms). A narrow-band Gaussian
-//! displacement with a contact that takes up c without slip has in the mean of its cycles the path
-//!   4 sqrt(pi/2) s erfc(c/(s sqrt 2)),
-//! its amplitudes being Rayleigh's.
+//! G |u/a|^2 over f (here between the points of G, which are joined by straight lines in logarithms). The amplitudes A of a narrow-band
+//! Gaussian displacement are Rayleigh's, P(A > x) = exp(-x^2/(2 s^2)). Where a stop ends them at b and a contact takes up c without slip,
+//! a cycle has the path 4 (min(A, b) - c), or none, and in the mean
+//!   4 int_c^b P(A > x) dx = 4 sqrt(pi/2) s [erfc(c/(s sqrt 2)) - erfc(b/(s sqrt 2))].
 
 use std::f64::consts::{PI, SQRT_2};
 
 use statrs::function::erf::erfc;
+
+use super::contact::Limits;
 
 /// Intervals of Simpson's rule over a segment: doubled until the integral changes by less than this part, or to the most.
 const INTERVALS: (u32, u32) = (256, 1 << 20);
@@ -83,14 +85,13 @@ fn simpson(value: impl Fn(f64) -> f64, range: f64, intervals: u32) -> f64 {
     (value(0.0) + inner + value(range)) * step / 3.0
 }
 
-/// Path of the slip in a cycle, mm, of a Gaussian displacement of a standard deviation in mm, of which the contact takes up an
-/// amplitude in mm without slip.
-pub(super) fn gaussian_path(deviation: f64, held: f64) -> f64 {
-    if deviation > 0.0 {
-        4.0 * (0.5 * PI).sqrt() * deviation * erfc(held / (deviation * SQRT_2))
-    } else {
-        0.0
+/// Mean path of the slip in a cycle, mm, of a Gaussian displacement of a standard deviation in mm.
+pub(super) fn gaussian_path(deviation: f64, Limits { held_mm, stop_mm }: Limits) -> f64 {
+    if !(deviation > 0.0 && held_mm < stop_mm) {
+        return 0.0;
     }
+    let beyond = |mm: f64| erfc(mm / (deviation * SQRT_2));
+    4.0 * (0.5 * PI).sqrt() * deviation * (beyond(held_mm) - beyond(stop_mm))
 }
 
 #[cfg(test)]
@@ -124,12 +125,42 @@ mod tests {
         assert!((deviation - 49.119).abs() < 5e-4, "{deviation}");
     }
 
+    fn path(deviation: f64, held_mm: f64, stop_mm: f64) -> f64 {
+        gaussian_path(deviation, Limits { held_mm, stop_mm })
+    }
+
     #[test]
     fn the_path_of_a_gaussian_displacement_falls_with_what_the_arm_takes_up() {
         for (held, expected) in [(0.0, 5.013_257), (1.0, 1.590_759)] {
-            let path = gaussian_path(1.0, held);
+            let path = path(1.0, held, f64::INFINITY);
             assert!((path - expected).abs() < 1e-6, "{held}: {path}");
         }
-        assert!(gaussian_path(0.0, 1.0) <= 0.0 && gaussian_path(1.0, 40.0) < 1e-100);
+        assert!(path(0.0, 1.0, f64::INFINITY) <= 0.0 && path(1.0, 40.0, f64::INFINITY) < 1e-100);
+    }
+
+    /// Amplitudes at evenly spaced probabilities, which is the mean over Rayleigh's distribution.
+    #[test]
+    fn the_path_between_stops_is_the_mean_over_amplitudes_that_end_there() {
+        const DRAWS: u32 = 200_000;
+        for (held, stop) in [
+            (0.0, 0.5),
+            (0.0, 3.0),
+            (0.7, 1.0),
+            (1.5, 2.5),
+            (1.0, 1.0),
+            (2.0, 1.0),
+        ] {
+            let of_draw = |i: u32| {
+                let above = (f64::from(i) + 0.5) / f64::from(DRAWS);
+                let amplitude = (-2.0 * above.ln()).sqrt();
+                4.0 * (amplitude.min(stop) - held).max(0.0)
+            };
+            let mean = (0..DRAWS).map(of_draw).sum::<f64>() / f64::from(DRAWS);
+            // The sum is exact to a part of its number of terms.
+            assert!(
+                (path(1.0, held, stop) - mean).abs() < 1e-4,
+                "{held}, {stop}: {mean}"
+            );
+        }
     }
 }

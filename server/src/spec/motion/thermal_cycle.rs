@@ -1,11 +1,11 @@
-//! Thermal cycles: two parts of a length that expand differently rub by U = |delta alpha| |delta T| L in each half of a cycle, less
-//! what the contact's arm takes up: slip range U - 2 mu N/k_t.
+//! Thermal cycles: two parts of a length that expand differently move by U = |delta alpha| |delta T| L in each half of a cycle, at most
+//! by the clearance c between them, and their contact rubs by that less what its arm takes up: slip range min(U, c) - 2 mu N/k_t.
 
 use std::ops::RangeInclusive;
 
 use api::spec::{Motion, MotionKind};
 
-use super::contact::{Demand, HeldContact, held_mm};
+use super::contact::{Demand, HeldContact, Limits, held_mm};
 use super::imposed::{ImposedMotion, drive, period};
 use super::vibration::{CLEARANCE_MM, STIFFNESS_N_PER_MM};
 use crate::spec::diagnostics::Diagnostics;
@@ -74,7 +74,8 @@ pub(super) fn resolve(
     };
     let period_s = period(given, typical(PERIOD_S), &mut spec, diagnostics);
     let range_mm = (mismatch * delta_t_k * length_mm).abs();
-    let demand = Demand::beyond(0.5 * range_mm, held, 1.0 / period_s);
+    let limits = Limits::of(held, clearance);
+    let demand = Demand::beyond(0.5 * range_mm, limits, 1.0 / period_s);
     let how = format!("{mismatch:e} 1/K times {delta_t_k} K over {length_mm} mm");
-    demand.imposed(spec, drive, (clearance, &how), diagnostics)
+    demand.imposed(spec, drive, &how, diagnostics)
 }

@@ -2,15 +2,16 @@
 //!
 //! Where a natural frequency is given, or follows from the tangential stiffness of the arms, f_n = sqrt(n k_t/m)/(2 pi), the part is
 //! an oscillator (`oscillator`) and the contact slips by what exceeds the arm's deflection, mu N/k_t. Otherwise friction alone holds
-//! a rigid part (`shaken_block`). Range: the slip does not damp the oscillator, which its quality factor stands for.
+//! a rigid part (`shaken_block`). A clearance stops the part at half of it to either side, whatever of that the arm takes up. Range: the
+//! slip does not damp the oscillator, which its quality factor stands for, and the stop does not return its impact.
 
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
 use api::spec::{Motion, MotionKind, PsdPoint};
 
-use super::contact::{Demand, HeldContact, held_mm};
-use super::imposed::{AMPLITUDE_MM, FREQUENCY_HZ, ImposedMotion, drive};
+use super::contact::{Demand, HeldContact, Limits, held_mm};
+use super::imposed::{FREQUENCY_HZ, ImposedMotion, drive};
 use super::oscillator::{Oscillator, gaussian_path};
 use super::shaken_block;
 use crate::number::{real, whole};
@@ -65,7 +66,7 @@ struct Part {
     contacts: f64,
     /// Largest force of friction of one contact, N.
     friction_n: f64,
-    held_mm: f64,
+    limits: Limits,
     oscillator: Option<Oscillator>,
 }
 
@@ -79,7 +80,6 @@ pub(super) fn resolve(
     diagnostics.check_fields("/motion", given, &FIELDS, "vibration");
     let part = part(given, contact, diagnostics);
     let duration = diagnostics.optional("/motion/duration_s", given.duration_s, &DURATION_S);
-    let clearance = diagnostics.optional("/motion/clearance_mm", given.clearance_mm, &CLEARANCE_MM);
     let (demand, how) = match &given.psd {
         Some(psd) => random(given, psd, &part, diagnostics),
         None => sine(given, &part, diagnostics),
@@ -97,7 +97,7 @@ pub(super) fn resolve(
     let cycles = duration.map(|duration| duration * demand.frequency_hz);
     ImposedMotion {
         duration_cycles: cycles.map(whole),
-        ..demand.imposed(spec, drive, (clearance, &how), diagnostics)
+        ..demand.imposed(spec, drive, &how, diagnostics)
     }
 }
 
@@ -124,6 +124,7 @@ fn part(given: &Motion, contact: HeldContact, diagnostics: &mut Diagnostics) -> 
         given.natural_frequency_hz,
         &FREQUENCY_HZ,
     );
+    let clearance = diagnostics.optional("/motion/clearance_mm", given.clearance_mm, &CLEARANCE_MM);
     let of_arms = stiffness
         .map(|stiffness| (contacts * stiffness / (mass_g * N_PER_G_MM_S2)).sqrt() / (2.0 * PI));
     let natural = natural.or(of_arms);
@@ -141,7 +142,7 @@ fn part(given: &Motion, contact: HeldContact, diagnostics: &mut Diagnostics) -> 
         mass_g,
         contacts,
         friction_n,
-        held_mm: held_mm(friction_n, stiffness),
+        limits: Limits::of(held_mm(friction_n, stiffness), clearance),
         oscillator,
     }
 }
@@ -159,10 +160,11 @@ fn sine(given: &Motion, part: &Part, diagnostics: &mut Diagnostics) -> (Demand, 
     let Some(oscillator) = part.oscillator else {
         return (rigid(part, acceleration, frequency_hz), how);
     };
-    let relative_mm = acceleration * oscillator.compliance(frequency_hz);
+    let free_mm = acceleration * oscillator.compliance(frequency_hz);
+    let from_g = acceleration_g * part.limits.held_mm / free_mm;
     let demand = Demand {
-        slips_from_g: Some(acceleration_g * part.held_mm / relative_mm),
-        ..Demand::beyond(relative_mm, part.held_mm, frequency_hz)
+        slips_from_g: part.limits.let_slip().then_some(from_g),
+        ..Demand::beyond(free_mm, part.limits, frequency_hz)
     };
     let how = format!("{how}, natural frequency {:.1} Hz", oscillator.natural_hz);
     (demand, how)
@@ -173,9 +175,11 @@ fn rigid(part: &Part, acceleration: f64, frequency_hz: f64) -> Demand {
     let friction = part.contacts * part.friction_n / (part.mass_g * N_PER_G_MM_S2);
     let angular = 2.0 * PI * frequency_hz;
     let range = shaken_block::range(friction / acceleration) * acceleration / angular.powi(2);
+    // Without a stiffness its arm takes up nothing.
+    let from_g = friction / STANDARD_GRAVITY_MM_S2;
     Demand {
-        slips_from_g: Some(friction / STANDARD_GRAVITY_MM_S2),
-        ..Demand::beyond(0.5 * range, 0.0, frequency_hz)
+        slips_from_g: part.limits.let_slip().then_some(from_g),
+        ..Demand::beyond(0.5 * range, part.limits, frequency_hz)
     }
 }
 
@@ -198,7 +202,7 @@ fn random(
     let Some(oscillator) = part.oscillator else {
         let detail = "a `psd` needs it, or `tangential_stiffness_n_per_mm`";
         diagnostics.missing("/motion/natural_frequency_hz", detail);
-        return (Demand::beyond(0.0, 0.0, 1.0), String::new());
+        return (Demand::beyond(0.0, Limits::NONE, 1.0), String::new());
     };
     let density: Vec<(f64, f64)> = psd
         .iter()
@@ -211,17 +215,17 @@ fn random(
         .collect();
     let deviation = oscillator.deviation(&density);
     // An even motion of the amplitude A has the path 4 A.
-    let even = |held| 0.25 * gaussian_path(deviation, held);
-    let slip_mm = even(part.held_mm);
+    let even = |limits| 0.25 * gaussian_path(deviation, limits);
+    let without_arm = Limits {
+        held_mm: 0.0,
+        ..part.limits
+    };
+    let (relative_mm, slip_mm) = (even(without_arm), even(part.limits));
     let demand = Demand {
-        relative_mm: even(0.0),
-        held_mm: even(0.0) - slip_mm,
-        // Far below the width of an atom.
-        slip_mm: if slip_mm < *AMPLITUDE_MM.start() {
-            0.0
-        } else {
-            slip_mm
-        },
+        free_mm: even(Limits::NONE),
+        relative_mm,
+        held_mm: relative_mm - slip_mm,
+        slip_mm,
         slips_from_g: None,
         frequency_hz: oscillator.natural_hz,
     };

@@ -74,12 +74,83 @@ fn arms_take_up_their_deflection() {
     )));
     assert!(near(shaken.held_amplitude_mm, 7.5e-3, 1e-12));
     assert!(near(shaken.slip_amplitude_mm, 2.0 * 7.5e-3, 1e-9));
-    let (_, stopped) = derived(&vibration(&format!(
-        r#"{arms},"acceleration_g":{},"frequency_hz":50,"clearance_mm":0.01"#,
-        3.0 * from
-    )));
-    assert!(near(stopped.slip_amplitude_mm, 5e-3, 1e-12));
-    assert!(stopped.reason.contains("clearance"), "{}", stopped.reason);
+}
+
+/// The arm takes up 7.5 um of each stroke of the parts, which the stop ends.
+#[test]
+fn a_clearance_limits_the_motion_of_the_parts_and_not_the_slip() {
+    let arms = r#""tangential_stiffness_n_per_mm":20"#;
+    let cycle =
+        r#""kind":"thermal_cycle","delta_t_k":-60,"length_mm":670,"expansion_mismatch_per_k":6e-6"#;
+    let motions = [
+        vibration(&format!(
+            r#"{arms},"acceleration_g":4000,"frequency_hz":50"#
+        )),
+        sd_card(&format!("{{{cycle},{arms}}}")),
+    ];
+    for motion in &motions {
+        let between = |clearance: f64| {
+            let stop = format!(r#"{arms},"clearance_mm":{clearance}"#);
+            derived(&motion.replace(arms, &stop)).1
+        };
+        let (_, free) = derived(motion);
+        assert!(free.relative_amplitude_mm > 0.015, "{free:?}");
+        for (clearance, slip) in [(0.012, 0.0), (0.015, 0.0), (0.016, 5e-4), (0.03, 7.5e-3)] {
+            let stopped = between(clearance);
+            assert!(
+                (stopped.slip_amplitude_mm - slip).abs() < 1e-12,
+                "{stopped:?}"
+            );
+            assert!(near(stopped.relative_amplitude_mm, 0.5 * clearance, 1e-12));
+            assert!(near(
+                stopped.held_amplitude_mm,
+                7.5e-3_f64.min(0.5 * clearance),
+                1e-12
+            ));
+            assert!(stopped.reason.contains("clearance"), "{}", stopped.reason);
+            assert_eq!(stopped.sticks, slip <= 0.0);
+            // No acceleration lets a contact slip whose arm takes up the whole clearance.
+            let slips = free.slips_from_g.filter(|_| slip > 0.0);
+            assert_eq!(stopped.slips_from_g, slips);
+        }
+        // A clearance beyond the motion changes nothing.
+        assert_eq!(between(10.0), free);
+        assert_eq!(between(0.0).slip_amplitude_mm.to_bits(), 0.0_f64.to_bits());
+    }
+    // A rigid part has no arm.
+    let shaken = r#""acceleration_g":200,"frequency_hz":50"#;
+    let (_, rigid) = derived(&vibration(&format!(r#"{shaken},"clearance_mm":0.02"#)));
+    assert!(near(rigid.slip_amplitude_mm, 0.01, 1e-12), "{rigid:?}");
+}
+
+#[test]
+fn a_random_motion_of_the_parts_ends_at_the_clearance() {
+    let deviation = 0.049_119;
+    let psd = r#""psd":[{"frequency_hz":5,"g2_per_hz":0.01},{"frequency_hz":20,"g2_per_hz":0.02},
+        {"frequency_hz":500,"g2_per_hz":0.02}],"natural_frequency_hz":200,"quality_factor":10"#;
+    // Arms that take up one standard deviation, stops at one, two and many.
+    let stiffness = 0.15 / deviation;
+    let between = |stop: f64| {
+        let clearance = 2.0 * stop * deviation;
+        let rest = format!(
+            r#"{psd},"tangential_stiffness_n_per_mm":{stiffness},"clearance_mm":{clearance}"#
+        );
+        derived(&vibration(&rest)).1
+    };
+    // Amplitudes of a Rayleigh distribution: 4 sqrt(pi/2) [erfc(1/sqrt 2) - erfc(2/sqrt 2)] of a deviation.
+    let slip = 0.25 * (1.590_759 - 0.228_104) * deviation;
+    let found = between(2.0);
+    assert!(near(found.slip_amplitude_mm, slip, 1e-4), "{found:?}");
+    let parts = 0.25 * (5.013_257 - 0.228_104) * deviation;
+    assert!(near(found.relative_amplitude_mm, parts, 1e-4), "{found:?}");
+    let held = found.relative_amplitude_mm - found.slip_amplitude_mm;
+    assert!(near(found.held_amplitude_mm, held, 1e-12));
+    assert!(between(0.99).sticks);
+    assert!(near(
+        between(20.0).slip_amplitude_mm,
+        0.25 * 1.590_759 * deviation,
+        1e-4
+    ));
 }
 
 #[test]
