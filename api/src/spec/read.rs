@@ -13,7 +13,7 @@ use objects::Objects;
 
 /// The bytes are no specification: malformed JSON, a number out of range, or a wrong type.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{detail} at line {line}, column {column}{}", at_pointer(.pointer))]
+#[error("line {line}, column {column}{}: {detail}", at_pointer(.pointer))]
 pub struct ParseError {
     /// JSON pointer of the value; empty for malformed JSON.
     pub pointer: String,
