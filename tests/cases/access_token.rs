@@ -71,7 +71,8 @@ fn first_lines(folder: &std::path::Path, umask: &str, options: &str) -> String {
     let log = service.stderr.take().expect("a pipe");
     let mut lines = String::new();
     for line in BufReader::new(log).lines() {
-        lines += &format!("{}\n", line.expect("text"));
+        lines.push_str(&line.expect("text"));
+        lines.push('\n');
         if lines.contains("service started") {
             break;
         }

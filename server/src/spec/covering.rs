@@ -58,13 +58,12 @@ fn is_unworn(spec: &Spec, side: Side) -> bool {
 }
 
 /// The wear law that a specification gives a side.
-fn wear_of(spec: &Spec, side: Side) -> Option<Option<&WearLaw>> {
+fn wear_of(spec: &Spec, side: Side) -> Option<&Option<WearLaw>> {
     let wear = &spec.interface.wear;
-    let law = match side {
-        Side::Slider => &wear.slider,
-        Side::Receptacle => &wear.receptacle,
-    };
-    law.as_ref().map(Option::as_ref)
+    match side {
+        Side::Slider => wear.slider.as_ref(),
+        Side::Receptacle => wear.receptacle.as_ref(),
+    }
 }
 
 /// The preset of a kind for the motion of a specification.
