@@ -3,7 +3,54 @@
 use serde_json::{Value, json};
 use tests::{bare_preset, merged};
 
+/// Scenes of a second at most from each regime: every effect is decisive in one of them and skipped in another, as far as it can be.
+const ONE_OF_EACH_REGIME: [&str; 35] = [
+    "fuzz_button, friction 0.05",
+    "sd_card",
+    "sd_card, friction 0",
+    "sd_card, friction 0.05",
+    "dimm",
+    "zif",
+    "zif, 20 cycles",
+    "cylinder_on_flat",
+    "cylinder_on_flat, friction 0.6",
+    "sd_card, amplitude 0.00005 mm",
+    "sd_card, amplitude 0.001 mm",
+    "sd_card, amplitude 0.005 mm",
+    "cylinder_on_flat, amplitude 0.005 mm",
+    "cylinder_on_flat, amplitude 0.1 mm",
+    "cylinder_on_flat, slider wears 0.1 times as fast",
+    "sd_card, spring 0.1 N/mm",
+    "cylinder_on_flat, spring 10 N/mm",
+    "sd_card, 5000 cycles, spring 20 N/mm",
+    "cylinder_on_flat, whole slider driven, friction 0.1",
+    "cylinder_on_flat, whole slider driven, friction 0.6",
+    "sd_card, soft slider, friction 0.1",
+    "sd_card, soft slider, friction 0.5",
+    "sd_card, soft slider, friction 0.8",
+    "sd_card, soft receptacle, friction 0.1",
+    "slender slider",
+    "sd_card, 0.2 um of gold on the receptacle",
+    "cylinder_on_flat, 50 um of gold on both sides",
+    "sd_card, -40 °C",
+    "sd_card, 24 °C",
+    "sd_card, 85 °C",
+    "cylinder_on_flat, 0.001 mm/s",
+    "cylinder_on_flat, 30 mm/s",
+    "cylinder_on_flat, 400 mm/s",
+    "sd_card, 0.1 A",
+    "sd_card, 20 A",
+];
+
 const KINDS: [&str; 5] = ["fuzz_button", "sd_card", "dimm", "zif", "cylinder_on_flat"];
+
+/// Few scenes with their names.
+pub(super) fn one_of_each_regime() -> Vec<(String, Value)> {
+    let mut scenes = all();
+    scenes.retain(|(name, _)| ONE_OF_EACH_REGIME.contains(&&name[..]));
+    assert_eq!(scenes.len(), ONE_OF_EACH_REGIME.len(), "names are unique");
+    scenes
+}
 
 /// All scenes with their names.
 pub(super) fn all() -> Vec<(String, Value)> {
