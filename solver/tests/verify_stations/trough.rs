@@ -10,7 +10,7 @@
 //!   k P' s = r^2 (sin a - a cos a + sin^3 a/3)   and the area   r^2 (a - sin a cos a),
 //! which is more than k P' s: the normal force on its walls is more than the line load. Shallow troughs: 1 + a^2/10 times as much.
 
-use super::{AMPLITUDE, RADIUS, ring, solved};
+use super::{RADIUS, ring, solved};
 use crate::scenes::COPPER_WEAR;
 use solver::scene::{LineShape, Motion, RingMotion, Top, WearLaw};
 use solver::station::StationScene;

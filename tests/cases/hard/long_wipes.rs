@@ -14,6 +14,7 @@ const RATE: f64 = 0.004 / 1700.0;
 fn wipe(kind: &str, amplitude_mm: f64, slider: &Value) -> Run {
     solve(&json!({
         "system": {"kind": kind},
+        "plating": {"slider": [], "receptacle": []},
         "interface": {"wear": {"slider": slider, "receptacle": {"law": "archard", "k_over_h_per_mpa": RATE}}},
         "motion": {"kind": "reciprocating", "amplitude_mm": amplitude_mm},
         "cycles": 4,
