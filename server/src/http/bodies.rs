@@ -70,8 +70,7 @@ pub(super) struct ArrivingBody {
 
 impl ArrivingBody {
     /// Splits a request into its head and its body.
-    fn split(request: Request) -> (Parts, Self) {
-        let kind = BodyKind::of(request.uri().path());
+    fn split(request: Request, kind: BodyKind) -> (Parts, Self) {
         let connection = request.extensions().get().cloned();
         // Requests of tests come through no listener.
         let connection = connection.unwrap_or_else(Connections::of_one);
@@ -168,7 +167,8 @@ impl<S: Send + Sync> FromRequest<S> for ArrivingBody {
     type Rejection = Infallible;
 
     async fn from_request(request: Request, _state: &S) -> Result<Self, Infallible> {
-        Ok(Self::split(request).1)
+        // Routes receive files alone, and know their path without the prefix of their router.
+        Ok(Self::split(request, BodyKind::File).1)
     }
 }
 
@@ -197,7 +197,8 @@ async fn received(request: Request) -> Result<(Request, Option<Arriving>), BodyE
     if request.body().is_end_stream() {
         return Ok((request, None));
     }
-    let (parts, body) = ArrivingBody::split(request);
+    let kind = BodyKind::of(request.uri().path());
+    let (parts, body) = ArrivingBody::split(request, kind);
     let (bytes, arriving) = body.into_memory().await?;
     Ok((
         Request::from_parts(parts, Body::from(bytes)),
