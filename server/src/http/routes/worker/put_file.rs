@@ -154,6 +154,7 @@ async fn receive(mut body: ArrivingBody, path: &Path, sent: &Sent) -> Result<u64
 #[cfg(test)]
 mod tests {
     use crate::export::files::sha256;
+    use crate::http::body_limits::MAX_BODY_BYTES;
     use crate::http::tests::Service;
     use crate::store::Lease;
 
@@ -163,13 +164,14 @@ mod tests {
         service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
         let claim = service.app.store.claim_next(i64::MAX).await.expect("a job");
         let folder = service.app.store.attempt_folder(Lease::from(&claim));
-        let put = async |lease: i64, name: &str, sha256: &str| {
+        let put_content = async |lease: i64, name: &str, sha256: &str, content: &str| {
             let path = format!(
                 "/v1/worker/files/{}/{lease}/{name}?sha256={sha256}",
                 claim.id
             );
-            service.put(&path, "fields").await.as_u16()
+            service.put(&path, content).await.as_u16()
         };
+        let put = async |lease, name, sha256| put_content(lease, name, sha256, "fields").await;
         let right = sha256(b"fields");
         assert_eq!(put(claim.lease, "a.vtu", &right).await, 200);
         assert_eq!(
@@ -181,5 +183,10 @@ mod tests {
         assert_eq!(put(claim.lease, "..%2Fd.vtu", &right).await, 400);
         let left = std::fs::read_dir(&folder).expect("a folder").count();
         assert_eq!(left, 1, "nothing else");
+        // A file is larger than the body of a user's request may be.
+        let large = "f".repeat(MAX_BODY_BYTES + 1);
+        let digest = sha256(large.as_bytes());
+        let answer = put_content(claim.lease, "large.vtu", &digest, &large).await;
+        assert_eq!(answer, 200);
     }
 }
