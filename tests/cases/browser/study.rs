@@ -81,8 +81,7 @@ async fn laws_materials_and_sections_are_chosen_and_each_fault_stands_at_its_fie
     browser
         .shows("[aria-label=Expected]", "processor time")
         .await;
-    // Another law asks for its own constants: the closed section opens, and each missing one is marked, no other of the law. (The wire is
-    // plated, whose base does not wear by this law: the law itself is a fault, too.)
+    // Another law asks for its own constants: the closed section opens, and each missing one is marked, no other.
     browser
         .wait_for("!document.querySelector('[data-group=interface]').open")
         .await;
@@ -92,7 +91,7 @@ async fn laws_materials_and_sections_are_chosen_and_each_fault_stands_at_its_fie
         .await;
     let invalid = "[...document.querySelectorAll('[aria-invalid]')].map((field) => field.id)";
     browser
-        .wait_for(&format!("{invalid}.filter((id) => id.startsWith('field-interface-wear-slider-')).length === 6 && {invalid}.every((id) => id.startsWith('field-interface-wear-slider'))"))
+        .wait_for(&format!("{invalid}.length === 6 && {invalid}.every((id) => id.startsWith('field-interface-wear-slider-'))"))
         .await;
     let beside = "document.getElementById('field-interface-wear-slider-critical_film_um-fault').innerText.includes('missing')";
     browser.wait_for(beside).await;

@@ -9,7 +9,7 @@ use super::vary;
 use crate::spec::Resolved;
 
 /// Values that follow another one where the specification leaves them out: the pointers that begin with the first text, of the second.
-const FOLLOW: [(&str, &str); 14] = [
+const FOLLOW: [(&str, &str); 10] = [
     ("/system/", "/system/"),
     ("/output/stations_mm", "/system/"),
     ("/output/stations_mm", "/motion/"),
@@ -18,8 +18,6 @@ const FOLLOW: [(&str, &str); 14] = [
     ("/output/snapshots_at_cycles", "/mission/"),
     ("/output/snapshots_at_cycles", "/repeat"),
     ("/model/", "/system/"),
-    ("/model/", "/model/"),
-    ("/accuracy/", "/accuracy/"),
     (
         "/interface/wear/slider/hardness_mpa",
         "/materials/slider/hardness_mpa",
@@ -28,9 +26,6 @@ const FOLLOW: [(&str, &str); 14] = [
         "/interface/wear/receptacle/hardness_mpa",
         "/materials/receptacle/hardness_mpa",
     ),
-    // Chosen by what the contact calls for.
-    ("/model/chosen", "/"),
-    ("/plating/", "/plating/"),
 ];
 
 /// Specifications of all systems in all dimensions that they have, and of the further kinds of motion, load and plating.
