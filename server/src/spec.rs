@@ -50,6 +50,7 @@ use solver::scene::Scene;
 use diagnostics::Diagnostics;
 pub(crate) use diagnostics::NAME_LIMIT;
 use filled::{Filled, fill, scene_of};
+pub(crate) use materials::name as material_name;
 pub(crate) use motion::CYCLES;
 pub(crate) use names::{LABEL_LIMIT, LABEL_TEXT_LIMIT};
 pub(crate) use rated_life::RatedMatings;

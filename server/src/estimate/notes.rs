@@ -1,10 +1,10 @@
 //! Notes of a plan: contradictions in the source of the presets that concern the values of the specification.
 
-use api::spec::{EnumValue, LoadKind, Material, Preset, Provenance, Spec, SystemKind, WearLaw};
+use api::spec::{EnumValue, LoadKind, Preset, Provenance, Spec, SystemKind, WearLaw};
 use solver::model::resolution;
 use solver::scene::{LineShape, RingMotion};
 
-use crate::spec::Resolved;
+use crate::spec::{Resolved, material_name};
 
 /// Hardness values in the wear formulas of the source that differ from its validation chapter.
 const HARDNESSES: [(f64, &str); 2] = [
@@ -55,11 +55,7 @@ fn kept_platings(resolved: &Resolved) -> Vec<String> {
         let given = provenance.get(&format!("/plating/{side}/0/thickness_um"))?;
         let layers = layers.as_ref().filter(|_| *given != Provenance::Given)?;
         let words = layers.iter().map(|layer| {
-            let name = match &layer.material {
-                Some(Material::Given(properties)) => properties.name.as_deref(),
-                Some(Material::Named(name)) => Some(name.as_str()),
-                None => None,
-            };
+            let name = layer.material.as_ref().and_then(material_name);
             let thickness = layer.thickness_um.unwrap_or_default();
             format!("{thickness} um of {}", name.unwrap_or("another metal"))
         });

@@ -33,7 +33,7 @@ use solver::sides::{Side, Sides};
 use crate::spec::covering::Covering;
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::materials::{by_side, name};
-use crate::spec::sourced::{Sourced, assumed, source, sourced};
+use crate::spec::sourced::{Sourced, assumed, source};
 use crate::spec::system::{ArchardPreset, Preset};
 pub(super) use numbers::numbers;
 use wearing_side::WearingSide;
@@ -82,10 +82,9 @@ pub(crate) fn resolve(
         let of_preset = *preset.wear.of(at);
         let default = match coverings.of(at) {
             // The law of the material that is plated, where the library lists one.
-            Covering::Given(_) => base_below_plating(&side).map_or_else(
-                || assumed(of_preset.value),
-                |listed| sourced(Some(listed.value), listed.provenance),
-            ),
+            Covering::Given(_) => {
+                base_below_plating(&side).map_or(assumed(of_preset.value), Sourced::optional)
+            }
             Covering::Preset(_) | Covering::Removed | Covering::Bare => of_preset,
         };
         wear(&side, law, default, coefficient, diagnostics)
@@ -138,13 +137,8 @@ fn wear(
     friction: f64,
     diagnostics: &mut Diagnostics,
 ) -> (Option<WearLaw>, Option<scene::WearLaw>) {
-    let unworn = match (given, default.value) {
-        (Some(Some(given)), None) => {
-            let (filled, law) = given_wear(side, given, friction, diagnostics);
-            return (Some(filled), law);
-        }
-        (Some(Some(given)), Some(preset)) => {
-            let preset = sourced(preset, default.provenance);
+    let unworn = match (given, default.present()) {
+        (Some(Some(given)), preset) => {
             let given = archard::completed(side, given, preset);
             let (filled, law) = given_wear(side, &given.law, friction, diagnostics);
             for (pointer, provenance) in given.defaults {
@@ -153,7 +147,6 @@ fn wear(
             return (Some(filled), law);
         }
         (None, Some(preset)) => {
-            let preset = sourced(preset, default.provenance);
             let (filled, law) = archard::from_preset(side, preset, diagnostics);
             return (Some(filled), Some(law));
         }

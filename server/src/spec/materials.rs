@@ -35,7 +35,7 @@ pub(crate) fn by_side(materials: &Materials) -> Sides<Option<&Material>> {
 }
 
 /// The name of a material, if it has one.
-pub(in crate::spec) fn name(material: &Material) -> Option<&str> {
+pub(crate) fn name(material: &Material) -> Option<&str> {
     match material {
         Material::Named(name) => Some(name),
         Material::Given(properties) => properties.name.as_deref(),

@@ -11,6 +11,21 @@ pub(crate) struct Sourced<T> {
     pub(crate) provenance: Provenance,
 }
 
+impl<T> Sourced<Option<T>> {
+    /// The value with its provenance, if there is one.
+    pub(crate) fn present(self) -> Option<Sourced<T>> {
+        let Self { value, provenance } = self;
+        value.map(|value| Sourced { value, provenance })
+    }
+}
+
+impl<T> Sourced<T> {
+    /// The value as one that may be absent.
+    pub(crate) fn optional(self) -> Sourced<Option<T>> {
+        sourced(Some(self.value), self.provenance)
+    }
+}
+
 /// A value that the source states.
 pub(crate) const fn source<T>(value: T) -> Sourced<T> {
     sourced(value, Provenance::Source)

@@ -30,7 +30,8 @@ struct Defaults {
     hardness_mpa: Sourced<f64>,
 }
 
-/// Those of a preset; beside another material than the preset's, with that material's hardness and, where the library lists one, its k.
+/// Coefficients of a preset; beside another material than the preset's, the hardness of that material and its k, where the library lists
+/// one.
 fn defaults(side: &WearingSide<'_>, preset: Sourced<ArchardPreset>) -> Defaults {
     let Sourced { value, provenance } = preset;
     // The preset's values were chosen for the preset's material.
@@ -79,19 +80,21 @@ pub(super) fn from_preset(
     (filled, scene::WearLaw::Archard { k_over_h_per_mpa })
 }
 
-/// A given law with the coefficients of a preset where it leaves them out; of another law than the preset's it is unchanged.
+/// A given law with the coefficients of a preset where it leaves them out; another law than the preset's is unchanged.
 pub(super) fn completed(
     side: &WearingSide<'_>,
     given: &WearLaw,
-    preset: Sourced<ArchardPreset>,
+    preset: Option<Sourced<ArchardPreset>>,
 ) -> Completed {
     let mut completed = Completed {
         law: given.clone(),
         defaults: Vec::new(),
     };
-    if given.law != WearLawName::Archard.into() || given.k_over_h_per_mpa.is_some() {
+    let is_ratio = given.k_over_h_per_mpa.is_some();
+    let Some(preset) = preset.filter(|_| given.law == WearLawName::Archard.into() && !is_ratio)
+    else {
         return completed;
-    }
+    };
     let Defaults { k, hardness_mpa } = defaults(side, preset);
     let WearLaw {
         k: own_k,

@@ -30,7 +30,7 @@ impl HeldContact {
     }
 }
 
-/// What limits the slip of a contact.
+/// Limits of the slip of a contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Limits {
     /// Amplitude of the displacement of both parts that the arm takes up without slip, mm.
@@ -46,7 +46,7 @@ impl Limits {
         stop_mm: f64::INFINITY,
     };
 
-    /// Those of an arm and of the play between both parts, mm: half of it lies to either side of the middle.
+    /// Limits by an arm and by the play between both parts, mm: half of it lies to either side of the middle.
     pub(super) fn of(held_mm: f64, clearance_mm: Option<f64>) -> Self {
         Self {
             held_mm,
@@ -54,7 +54,7 @@ impl Limits {
         }
     }
 
-    /// Whether any displacement makes the contact slip.
+    /// Checks whether any displacement makes the contact slip.
     pub(super) fn let_slip(self) -> bool {
         self.held_mm < self.stop_mm
     }
