@@ -174,7 +174,7 @@ impl Service {
     }
 }
 
-/// Whether tokens that are sent to an address can be read on the way.
+/// Checks whether tokens that are sent to an address can be read on the way.
 fn shows_token(listen: SocketAddr, is_encrypted: bool) -> bool {
     !listen.ip().is_loopback() && !is_encrypted
 }

@@ -57,7 +57,7 @@ fn without_a_token_the_service_listens_on_loopback_only() {
     assert!(ran.stderr.contains("5 characters"), "{}", ran.stderr);
 }
 
-/// What a service with these options says at its start under a umask until it serves.
+/// Lines that a service with these options writes under a umask until it serves.
 fn first_lines(folder: &std::path::Path, umask: &str, options: &str) -> String {
     let command = format!("umask {umask}; exec \"$0\" serve --workers 0 {options}");
     let mut service = Command::new("sh")

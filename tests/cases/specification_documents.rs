@@ -139,7 +139,7 @@ async fn every_command_reads_standard_input_and_names_it() {
     }
     let (_, list) = server.get("/v1/jobs").await;
     assert_eq!(list["jobs"].as_array().map(Vec::len), Some(0), "{list}");
-    // What is sent has no comments.
+    // The document that is sent has no comments.
     let queued = fretwear_reading(
         folder,
         &["submit", "-", "--server", &server.base],

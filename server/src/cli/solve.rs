@@ -54,7 +54,7 @@ pub(super) fn run(arguments: &SolveArguments) -> Ended {
     report(&resolved, &solved.map_err(failed)?, format)
 }
 
-/// Whether a user waits for the solve, rather than a script.
+/// Checks whether standard input and standard error are terminals: a user waits for the solve, and no script.
 fn is_interactive() -> bool {
     std::io::stdin().is_terminal() && std::io::stderr().is_terminal()
 }

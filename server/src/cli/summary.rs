@@ -66,7 +66,7 @@ fn text(spec: &Spec, summary: &Summary) -> String {
     parts.join("\n\n")
 }
 
-/// What was simulated, and how it ended.
+/// Name, system and outcome of the run.
 fn end(spec: &Spec, summary: &Summary) -> String {
     let name = spec.name.as_deref().map(printable);
     let name = name.map_or_else(String::new, |name| format!("{}: ", name.replace('\n', " ")));

@@ -71,7 +71,7 @@ pub enum ClientError {
     /// No id has this beginning or end.
     #[error("no {kind} has an id that begins or ends with `{part}`")]
     NoSuchId {
-        /// What the id is of.
+        /// Kind of the thing with the id.
         kind: &'static str,
         /// The beginning or end.
         part: String,
@@ -79,7 +79,7 @@ pub enum ClientError {
     /// Several ids have this beginning or end.
     #[error("{} ids of a {kind} begin or end with `{part}`; write more of it:{}", .candidates.len(), lines(.candidates))]
     AmbiguousId {
-        /// What the ids are of.
+        /// Kind of the things with the ids.
         kind: &'static str,
         /// The beginning or end.
         part: String,

@@ -48,7 +48,7 @@ impl Arrival {
         self.due
     }
 
-    /// Whether it is so far behind that it gives way to another connection.
+    /// Checks whether the body is so far behind that it gives way to another connection.
     pub(super) fn is_late(&self, now: Instant) -> bool {
         !self.is_complete && now.saturating_duration_since(self.due) >= LATE
     }

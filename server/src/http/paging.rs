@@ -75,7 +75,7 @@ impl<P: Serialize + DeserializeOwned> Page<P> {
     /// Truncates queried entries to the page, and returns the token of the next page, if there is one.
     ///
     /// # Errors
-    /// Those of the JSON of a place.
+    /// [`serde_json::Error`] if the place cannot be written as JSON.
     pub(super) fn truncate<T>(
         &self,
         entries: &mut Vec<T>,

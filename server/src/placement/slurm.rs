@@ -1,6 +1,6 @@
 //! Slurm: workers as tasks of job arrays.
 //!
-//! What is submitted and runs is read from Slurm's queue by the name of the jobs. Only submissions that are not listed there yet are
+//! The workers that are submitted or run are read from Slurm's queue by the name of the jobs. Only submissions that are not listed there yet are
 //! remembered; tasks name theirs by a comment.
 
 use std::collections::HashSet;

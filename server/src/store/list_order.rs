@@ -12,9 +12,9 @@ pub(in crate::store) const ORDER_VALUE: &str = "order_value";
 /// Order of a list; among equals, and among those without a value, the newest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Order {
-    /// What the jobs are ordered by.
+    /// Quantity that the jobs are ordered by.
     pub key: OrderKey,
-    /// Whether the largest value comes first; jobs without one come last in either direction.
+    /// The largest value comes first; jobs without one come last in either direction.
     pub descending: bool,
 }
 
@@ -27,7 +27,7 @@ impl Default for Order {
     }
 }
 
-/// What a list is ordered by.
+/// Quantity that a list is ordered by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OrderKey {
     /// Time of submission.
@@ -53,7 +53,7 @@ pub enum OrderKey {
 pub struct Listed<T> {
     /// The job.
     pub job: T,
-    /// Its place.
+    /// Place of the job in the order.
     pub place: ListPlace,
 }
 
@@ -62,7 +62,7 @@ pub struct Listed<T> {
 pub struct ListPlace {
     /// The job.
     pub id: Uuid,
-    /// What it is ordered by besides its id; none where it has no value.
+    /// Value of the quantity; none where the job has no value.
     pub value: Option<OrderValue>,
 }
 

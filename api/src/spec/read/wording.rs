@@ -63,7 +63,7 @@ fn number_advice(quoted: &str) -> &'static str {
     }
 }
 
-/// What a document without an object is, from its first character that is no space.
+/// Names the content of a document that is no object, from its first character that is no space.
 pub(super) fn of_document(bytes: &[u8]) -> String {
     if bytes.is_empty() {
         return "nothing".to_owned();

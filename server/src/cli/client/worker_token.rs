@@ -34,7 +34,7 @@ pub(in crate::cli) enum TokenAction {
     },
     /// Revoke a token: its workers are refused from now on.
     Revoke {
-        /// Its id; the first or last characters are enough.
+        /// Id of the token; the first or last characters are enough.
         id: WrittenId,
         #[command(flatten)]
         server: ServerOptions,

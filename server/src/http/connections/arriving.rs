@@ -67,8 +67,12 @@ impl Arriving {
             return Ok(());
         }
         let (kind, limits) = (body.kind, body.kind.limits());
-        make_room(&mut open, (kind, Some(peer)), limits.memory_of_peer);
-        make_room(&mut open, (kind, None), limits.memory);
+        let of_peer = Sharing {
+            kind,
+            peer: Some(peer),
+        };
+        make_room(&mut open, of_peer, limits.memory_of_peer);
+        make_room(&mut open, Sharing { kind, peer: None }, limits.memory);
         if self.give_way.is_cancelled() {
             return Err(GaveWay);
         }
@@ -111,12 +115,17 @@ impl Drop for Arriving {
     }
 }
 
-/// Lets the bodies of a kind, of one peer or of all, that are behind the most give way until the others fit into memory.
-fn make_room(
-    open: &mut BTreeMap<u64, Entry>,
-    (kind, peer): (BodyKind, Option<IpAddr>),
-    limit: usize,
-) {
+/// Bodies that share a limit of memory.
+#[derive(Debug, Clone, Copy)]
+struct Sharing {
+    kind: BodyKind,
+    /// One peer, or all.
+    peer: Option<IpAddr>,
+}
+
+/// Lets the bodies that are behind the most give way until the others fit into memory.
+fn make_room(open: &mut BTreeMap<u64, Entry>, sharing: Sharing, limit: usize) {
+    let Sharing { kind, peer } = sharing;
     let concerned = |entry: &Entry| peer.is_none_or(|peer| entry.peer == peer);
     let of_kind = |body: &Arrival| body.kind == kind && body.held > 0;
     loop {

@@ -14,7 +14,7 @@ use super::pairing;
 use super::predictor::{predict, start_from};
 use super::problem::{GAP_TOLERANCE, Iterate, MOST_ITERATIONS, Problem, mean_slope};
 use super::response::Response;
-use super::slip_along::SlipAlong;
+use super::slip_along::{Imposed, SlipAlong, Slopes};
 use super::state::ContactState;
 use super::wear_coupling::WearCoupling;
 use super::work::Work;
@@ -236,7 +236,9 @@ impl Solver {
         let width = &pair.slave().widths[first..end];
         let slope = &geometry.slopes.interface;
         let mean = mean_slope(last, &geometry.coupling, (width, slope));
-        self.along.impose((step, to.along), (slope, mean));
+        let (across, along) = (step, to.along);
+        self.along
+            .impose(Imposed { across, along }, Slopes { nodes: slope, mean });
         let along = &self.along;
         let friction = Coefficient::of(pair, surfaces, &self.friction, &along.directions);
         let problem = Problem {

@@ -20,15 +20,33 @@ pub(super) struct SlipAlong {
     pub(super) directions: Vec<[f64; 2]>,
 }
 
+/// Slips of an increment, mm.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Imposed {
+    pub(super) across: f64,
+    pub(super) along: f64,
+}
+
+/// Slopes of the surfaces, -.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Slopes<'a> {
+    /// At the coupled nodes, s.
+    pub(super) nodes: &'a [f64],
+    /// Mean under the last load, m.
+    pub(super) mean: f64,
+}
+
 impl SlipAlong {
-    /// Those of imposed slips across the line and along it, mm, on surfaces of these slopes with a mean slope under the load.
-    pub(super) fn impose(&mut self, (across, along): (f64, f64), (slopes, mean): (&[f64], f64)) {
+    /// Imposes slips on surfaces with slopes.
+    pub(super) fn impose(&mut self, imposed: Imposed, slopes: Slopes<'_>) {
+        let Imposed { across, along } = imposed;
         self.slip.clear();
         self.directions.clear();
         if along == 0.0 {
             return;
         }
-        for slope in slopes {
+        let Slopes { nodes, mean } = slopes;
+        for slope in nodes {
             let along = along * slope.hypot(1.0);
             // None where the slider rises off the opposite wall faster than it moves along it.
             let across = across.abs() * (1.0 + mean * slope).max(0.0);
@@ -47,7 +65,10 @@ mod tests {
     #[test]
     fn friction_opposes_the_slip_on_walls() {
         let mut slip = SlipAlong::default();
-        slip.impose((3.0, -4.0), (&[0.0, 1.0], 1.0));
+        let [across, along] = [3.0, -4.0];
+        let imposed = Imposed { across, along };
+        let slopes = |nodes, mean| Slopes { nodes, mean };
+        slip.impose(imposed, slopes(&[0.0, 1.0], 1.0));
         let is = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < 1e-15;
         assert!(is(slip.directions[0], [0.6, 0.8]));
         // Squares of the slips on a wall of 45 degrees, per projected length: (3 + 3)^2 and 2 4^2.
@@ -55,10 +76,11 @@ mod tests {
         assert!(is(slip.directions[1], wall));
         assert!((slip.slip[1] + 32.0_f64.sqrt()).abs() < 1e-15);
         // In a filled trough the same wall is slid along, without rising.
-        slip.impose((3.0, -4.0), (&[1.0], 0.0));
+        slip.impose(imposed, slopes(&[1.0], 0.0));
         let trough = [9.0, 32.0].map(|part: f64| (part / 41.0).sqrt());
         assert!(is(slip.directions[0], trough));
-        slip.impose((3.0, 0.0), (&[0.0, 1.0], 1.0));
+        let along = 0.0;
+        slip.impose(Imposed { across, along }, slopes(&[0.0, 1.0], 1.0));
         assert!(slip.slip.is_empty() && slip.directions.is_empty());
     }
 }
