@@ -7,6 +7,7 @@ mod download;
 mod error;
 mod events;
 mod jobs;
+mod readiness;
 mod upload;
 mod worker_tokens;
 
@@ -16,12 +17,12 @@ use std::time::Duration;
 
 use api::job::Job;
 use api::problem::Problem;
-use api::service::{Demand, SERVICE};
+use api::service::Demand;
 use reqwest::header::{AUTHORIZATION, HeaderMap, HeaderValue, LOCATION, RETRY_AFTER};
 use reqwest::redirect::Policy;
 use reqwest::{Certificate, ClientBuilder, RequestBuilder, Response, StatusCode, Url};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
 use uuid::Uuid;
 
 pub use download::Fetched;
@@ -209,26 +210,6 @@ impl Client {
     /// [`ClientError`].
     pub async fn job(&self, id: Uuid) -> Result<Job, ClientError> {
         self.get(&format!("/v1/jobs/{id}"), &[]).await
-    }
-
-    /// Returns whether the service is ready; asks once.
-    ///
-    /// # Errors
-    /// [`ClientError`], also if it is not ready, or another program answers.
-    pub async fn check_ready(&self, timeout: Duration) -> Result<(), ClientError> {
-        #[derive(Deserialize)]
-        struct Ready {
-            service: String,
-        }
-        let request = self.http.get(self.url("/readyz")).timeout(timeout);
-        let answer = self.send(request).await?.bytes().await;
-        let answer = answer.map_err(|cause| ClientError::unreachable(&self.base, cause))?;
-        let ready = serde_json::from_slice::<Ready>(&answer);
-        if ready.is_ok_and(|ready| ready.service == SERVICE) {
-            Ok(())
-        } else {
-            Err(ClientError::OtherService(self.base.clone()))
-        }
     }
 
     fn url(&self, path: &str) -> String {
