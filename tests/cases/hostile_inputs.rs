@@ -12,6 +12,8 @@ use tests::Server;
 
 /// Largest accepted peak memory of a service that refuses all of this, MB.
 const MEMORY_LIMIT_MB: f64 = 256.0;
+/// Bodies of 1 MiB that one address may have in memory.
+const BODIES_OF_ONE_ADDRESS: usize = 64;
 /// Longer than the service's timeout for a head.
 const HEAD_TIMEOUT: Duration = Duration::from_mins(2);
 
@@ -264,7 +266,12 @@ async fn unfinished_bodies_have_a_limited_memory() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     let part = vec![b' '; (1 << 20) - 1];
-    let _unfinished = unfinished_bodies(&server, 300, &part);
+    let mut unfinished = unfinished_bodies(&server, 300, &part);
+    // The service has read all of them and keeps as many as one address may have.
+    while unfinished.len() > BODIES_OF_ONE_ADDRESS {
+        unfinished.retain_mut(is_open);
+        tokio::time::sleep(Duration::from_millis(10)).await;
+    }
     // Another body needs memory and is received.
     refused(&server, "[".repeat(1 << 19), 400).await;
     alive_and_empty(&server).await;

@@ -3,6 +3,7 @@
 //! A body has to arrive at [`RATE`]. It is *due* until the time for which its bytes suffice at this rate; bytes that arrive faster
 //! give no credit, so that neither single bytes nor a fast start let a client hold a body for long.
 
+use std::cmp::Reverse;
 use std::time::{Duration, Instant};
 
 use tokio_util::sync::CancellationToken;
@@ -20,6 +21,7 @@ pub(super) const TIMEOUT: Duration = Duration::from_secs(30);
 #[derive(Debug)]
 pub(super) struct Arrival {
     pub(super) kind: BodyKind,
+    began: Instant,
     due: Instant,
     /// When the last bytes were counted; the service has done something with them since.
     counted: Instant,
@@ -35,6 +37,7 @@ impl Arrival {
     pub(super) fn new(kind: BodyKind, began: Instant) -> Self {
         Self {
             kind,
+            began,
             due: began,
             counted: Instant::now(),
             held: 0,
@@ -43,7 +46,7 @@ impl Arrival {
         }
     }
 
-    /// Time for which the bytes that have arrived suffice.
+    /// Time until which the bytes that have arrived suffice.
     pub(super) fn due(&self) -> Instant {
         self.due
     }
@@ -51,6 +54,13 @@ impl Arrival {
     /// Checks whether the body is so far behind that it gives way to another connection.
     pub(super) fn is_late(&self, now: Instant) -> bool {
         !self.is_complete && now.saturating_duration_since(self.due) >= LATE
+    }
+
+    /// Order in which bodies give way to others: by whole seconds that they are behind, then the one that began first. Shorter times
+    /// are those of the service, which reads from many connections by turns.
+    pub(super) fn order_of_giving_way(&self, now: Instant) -> impl Ord + use<> {
+        let behind = now.saturating_duration_since(self.due);
+        (Reverse(behind.as_secs()), self.began)
     }
 
     /// Counts bytes that have arrived.

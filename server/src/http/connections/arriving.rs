@@ -128,6 +128,7 @@ fn make_room(open: &mut BTreeMap<u64, Entry>, sharing: Sharing, limit: usize) {
     let Sharing { kind, peer } = sharing;
     let concerned = |entry: &Entry| peer.is_none_or(|peer| entry.peer == peer);
     let of_kind = |body: &Arrival| body.kind == kind && body.held > 0;
+    let now = Instant::now();
     loop {
         let entries = open.values().filter(|entry| concerned(entry));
         let bodies = entries.filter_map(|entry| entry.body.as_ref());
@@ -135,7 +136,7 @@ fn make_room(open: &mut BTreeMap<u64, Entry>, sharing: Sharing, limit: usize) {
         let entries = open.values_mut().filter(|entry| concerned(entry));
         let bodies = entries.filter_map(|entry| entry.body.as_mut());
         let incomplete = bodies.filter(|body| of_kind(body) && !body.is_complete);
-        match incomplete.min_by_key(|body| body.due()) {
+        match incomplete.min_by_key(|body| body.order_of_giving_way(now)) {
             Some(last) if held > limit => {
                 last.held = 0;
                 last.give_way.cancel();
@@ -178,6 +179,19 @@ mod tests {
         assert!(second.give_way.is_cancelled() && !first.give_way.is_cancelled());
         assert_eq!(first.arrived(1, most), Ok(()));
         assert!(!other.give_way.is_cancelled(), "another peer");
+    }
+
+    #[test]
+    fn of_bodies_that_arrive_at_once_the_latest_is_received() {
+        let connections = Connections::new(LIMITS);
+        let [first, second] = [0, 1].map(|number| connection(&connections, number, 1));
+        let most = BodyKind::User.limits().memory_of_peer;
+        let second = second.body_behind(Duration::from_millis(10), BodyKind::User);
+        let first = first.body_behind(Duration::from_millis(20), BodyKind::User);
+        assert_eq!(second.arrived(1, 1), Ok(()));
+        // The service has read from the first one after it has read from the second one.
+        assert_eq!(first.arrived(1 << 20, most), Err(GaveWay));
+        assert_eq!(second.arrived(1, most), Ok(()));
     }
 
     #[test]
