@@ -164,7 +164,7 @@ fn a_run_with_a_growing_film_resumes_to_the_same_bits() {
         &[1.2 * clean],
     );
     scene.cycles = 100_000;
-    let (summary, _) = resumes_to_the_same_bits("growing film", &scene, 6);
+    let (summary, _) = resumes_to_the_same_bits("growing film", &scene, 2);
     assert!(summary.life.resistance[0].cycles.is_some());
 }
 

@@ -114,13 +114,13 @@ fn a_resumed_line_reaches_the_bits_of_the_undisturbed_run() {
     scene.spring_n_per_mm2 = 20.0 / WIDTH;
     scene.life = vec![Criterion::deepest(Side::Slider, 0.04e-3)];
     scene.output.snapshots_at_cycles = vec![200, 1_000];
-    let (summary, _) = resumes_to_the_same_bits("crowned line", &scene, 4);
+    let (summary, _) = resumes_to_the_same_bits("crowned line", &scene, 2);
     assert!(summary.life.criteria[0].cycles.is_some());
     assert!(summary.checks.worn_area < 1e-10, "{:?}", summary.checks);
     let mut worn = ring(150);
     worn.receptacle.shape.height_mm = 0.004;
     worn.effects = worn.effects.with(Effect::Relocation, true);
-    let (summary, _) = resumes_to_the_same_bits("ring", &worn, 4);
+    let (summary, _) = resumes_to_the_same_bits("ring", &worn, 2);
     assert!(summary.resolution.relocations > 0);
 }
 

@@ -102,7 +102,7 @@ fn a_mixed_mission_stops_at_a_depth() {
 #[test]
 fn a_mixed_mission_resumes_to_the_same_bits() {
     let scene = mixed(vibrated_and_wiped(12, Some(1e-7)));
-    let (summary, _) = resumes_to_the_same_bits("mixed mission", &scene, 12);
+    let (summary, _) = resumes_to_the_same_bits("mixed mission", &scene, 3);
     assert_eq!(summary.blocks.len(), 2);
 }
 

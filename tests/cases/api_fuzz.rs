@@ -30,14 +30,22 @@ include-name = "GET /v1/jobs/{id}/results/files/{name}"
 checks.positive_data_acceptance.expected-statuses = ["2xx", "304", "404", "416"]
 "#;
 
-/// Sends requests for `seconds`; `chosen` selects the routes.
-fn fuzzed(server: &Server, folder: &Path, seconds: &str, chosen: &[&str]) {
+/// How many requests are sent, at most.
+#[derive(Clone, Copy)]
+struct Requests {
+    of_an_operation: &'static str,
+    seconds: &'static str,
+}
+
+/// Sends requests; `chosen` selects the routes.
+fn fuzzed(server: &Server, folder: &Path, requests: Requests, chosen: &[&str]) {
     let output = Command::new(env!("FRETWEAR_PYTHON"))
         .args(["-m", "schemathesis.cli", "run"])
         .arg(format!("{}/openapi.json", server.base))
         .args(["--checks", CHECKS])
         .args(["--phases", "examples,coverage,fuzzing"])
-        .args(["--max-examples", "20", "--max-time", seconds, "--seed", "7"])
+        .args(["--max-examples", requests.of_an_operation])
+        .args(["--max-time", requests.seconds, "--seed", "7"])
         // A request may wait for a job for 60 s.
         .args([
             "--request-timeout",
@@ -59,16 +67,12 @@ fn configured(folder: &Path, more: &str) {
     std::fs::write(folder.join("schemathesis.toml"), config).expect("a file can be written");
 }
 
-#[tokio::test]
-#[cfg_attr(
-    not(has_schemathesis),
-    ignore = "needs the Python package schemathesis"
-)]
-async fn every_answer_to_a_generated_request_conforms_to_the_openapi_document() {
+/// Requests of all operations, then of those about one job.
+async fn every_answer_conforms([all, of_a_job]: [Requests; 2]) {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
     configured(folder.path(), "");
-    fuzzed(&server, folder.path(), "60", &[]);
+    fuzzed(&server, folder.path(), all, &[]);
 
     let spec = json!({
         "system": {"kind": "fuzz_button"}, "cycles": 2,
@@ -86,8 +90,35 @@ async fn every_answer_to_a_generated_request_conforms_to_the_openapi_document() 
         "--include-method",
         "GET",
     ];
-    fuzzed(&server, folder.path(), "30", &about_the_job);
+    fuzzed(&server, folder.path(), of_a_job, &about_the_job);
     // On a new connection: the service may be closing the idle one.
     let alive = reqwest::get(format!("{}/healthz", server.base)).await;
     assert_eq!(alive.expect("the service answers").status(), 200);
+}
+
+#[tokio::test]
+#[cfg_attr(
+    not(has_schemathesis),
+    ignore = "needs the Python package schemathesis"
+)]
+async fn every_answer_to_a_generated_request_conforms_to_the_openapi_document() {
+    let requests = ["20", "10"].map(|seconds| Requests {
+        of_an_operation: "5",
+        seconds,
+    });
+    every_answer_conforms(requests).await;
+}
+
+mod long {
+    use super::{Requests, every_answer_conforms};
+
+    #[tokio::test]
+    #[ignore = "long: takes 200 s; needs the Python package schemathesis"]
+    async fn every_answer_to_many_requests_conforms_to_the_openapi_document() {
+        let requests = ["60", "30"].map(|seconds| Requests {
+            of_an_operation: "20",
+            seconds,
+        });
+        every_answer_conforms(requests).await;
+    }
 }

@@ -7,7 +7,7 @@ use tests::fretwear;
 #[cfg_attr(not(has_ccx), ignore = "needs the program ccx of CalculiX")]
 fn calculix_solves_the_same_cycle() {
     let folder = tempfile::tempdir().expect("a folder can be made");
-    let arguments = ["bench", "--against", "ccx", "--elements-um", "60"];
+    let arguments = ["bench", "--against", "ccx", "--elements-um", "90"];
     let ran = fretwear(folder.path(), &arguments);
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
     let row = ran.stdout.lines().nth(2).expect("a row");

@@ -247,22 +247,26 @@ async fn chaos_short_of_two_services() {
     chaos(Engine::Services, 6, 7).await;
 }
 
-#[tokio::test]
-#[ignore = "takes minutes; run it by name"]
-async fn chaos_long() {
-    long(Engine::File).await;
-}
+mod night {
+    use super::{Engine, long};
 
-#[tokio::test]
-#[ignore = "takes minutes; run it by name"]
-async fn chaos_long_of_postgresql() {
-    long(Engine::Server).await;
-}
+    #[tokio::test]
+    #[ignore = "night: takes minutes"]
+    async fn chaos() {
+        long(Engine::File).await;
+    }
 
-#[tokio::test]
-#[ignore = "takes minutes; run it by name"]
-async fn chaos_long_of_two_services() {
-    long(Engine::Services).await;
+    #[tokio::test]
+    #[ignore = "night: takes minutes"]
+    async fn chaos_of_postgresql() {
+        long(Engine::Server).await;
+    }
+
+    #[tokio::test]
+    #[ignore = "night: takes minutes"]
+    async fn chaos_of_two_services() {
+        long(Engine::Services).await;
+    }
 }
 
 async fn long(engine: Engine) {

@@ -237,6 +237,12 @@ async fn a_job_resumes_from_its_checkpoint_once_the_store_of_objects_answers() {
     let killed = RemoteWorker::start(folder.path(), &server.base, &options);
     let is_under_way = |job: &Value| job["progress"]["cycle"].as_u64() > Some(20);
     server.job_when(id, is_under_way).await;
+    // A checkpoint arrives after the progress that it belongs to.
+    let start = Instant::now();
+    while checkpoints(&objects).is_empty() {
+        assert!(start.elapsed() < PATIENCE, "one is sent");
+        tokio::time::sleep(Duration::from_millis(10)).await;
+    }
     killed.signal(Signal::SIGKILL);
     killed.wait();
     server.job_when(id, |job| job["status"] == "queued").await;
@@ -245,21 +251,20 @@ async fn a_job_resumes_from_its_checkpoint_once_the_store_of_objects_answers() {
     std::fs::rename(&objects, &away).expect("renamed");
     std::fs::write(&objects, "").expect("a file in its place");
     let _other = RemoteWorker::start(folder.path(), &server.base, &options);
-    let waiting = server.job_when(id, |job| job["attempts"] == 2).await;
-    assert_eq!(waiting["status"], "running", "{waiting}");
+    let waiting = server
+        .job_when(id, |job| job["attempts"].as_u64() >= Some(2))
+        .await;
+    assert!(waiting["finished_at"].is_null(), "{waiting}");
     std::fs::remove_file(&objects).expect("removed");
     std::fs::rename(&away, &objects).expect("renamed back");
     let job = server
         .job_when(id, |job| job["finished_at"].is_string())
         .await;
-    assert_eq!(
-        (&job["status"], &job["attempts"]),
-        (&"succeeded".into(), &2.into())
-    );
+    assert_eq!(job["status"], "succeeded", "{job}");
     let attempts = bits::events(&server, id, "attempt").await;
     let from: Vec<_> = attempts.iter().map(|event| &event["from_cycle"]).collect();
     assert!(
-        from.len() == 2 && from[1].as_u64() > Some(0),
+        from.len() >= 2 && from[1].as_u64() > Some(0),
         "{attempts:?}"
     );
     assert_eq!(bits::of(&server, id).await, expected);

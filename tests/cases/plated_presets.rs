@@ -52,20 +52,40 @@ fn ends_as_planned(name: &str, spec: &Value) {
     );
 }
 
+fn presets_end_as_planned(kinds: &[&str]) {
+    for kind in kinds {
+        ends_as_planned(kind, &to_base_metal(kind, json!({})));
+    }
+}
+
+fn a_stroke_ends_as_planned(amplitude_mm: f64) {
+    let motion = json!({"motion": {"kind": "reciprocating", "amplitude_mm": amplitude_mm}});
+    let name = format!("sd_card, {amplitude_mm} mm");
+    ends_as_planned(&name, &to_base_metal("sd_card", motion));
+}
+
 #[test]
 fn presets_wear_to_base_metal_at_the_tip_when_their_plans_expect_it() {
-    for kind in ["fuzz_button", "sd_card", "dimm", "zif"] {
-        ends_as_planned(kind, &to_base_metal(kind, json!({})));
+    presets_end_as_planned(&["sd_card", "dimm"]);
+}
+
+mod long {
+    #[test]
+    #[ignore = "long: takes 50 s"]
+    fn other_presets_wear_to_base_metal_at_the_tip_when_their_plans_expect_it() {
+        super::presets_end_as_planned(&["fuzz_button", "zif"]);
+    }
+
+    #[test]
+    #[ignore = "long: takes 30 s"]
+    fn a_long_stroke_ends_as_planned() {
+        super::a_stroke_ends_as_planned(0.1);
     }
 }
 
 #[test]
 fn other_strokes_and_matings_end_as_planned() {
-    for amplitude_mm in [0.005, 0.1] {
-        let motion = json!({"motion": {"kind": "reciprocating", "amplitude_mm": amplitude_mm}});
-        let name = format!("sd_card, {amplitude_mm} mm");
-        ends_as_planned(&name, &to_base_metal("sd_card", motion));
-    }
+    a_stroke_ends_as_planned(0.005);
     let mating = json!({"motion": {"kind": "insertion", "wipe_mm": 0.3}});
     ends_as_planned("sd_card, wipe of 0.3 mm", &to_base_metal("sd_card", mating));
 }

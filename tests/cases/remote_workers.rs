@@ -63,11 +63,9 @@ async fn jobs_have_the_bits_of_the_services_own_workers_also_if_a_worker_is_kill
     killed.wait();
     let _other = RemoteWorker::start(folder.path(), &server.base, &options);
     let job = ended(&server, &ids[1]).await;
-    assert_eq!(
-        (&job["status"], &job["attempts"]),
-        (&json!("succeeded"), &json!(2)),
-        "{job}"
-    );
+    assert_eq!(job["status"], "succeeded", "{job}");
+    // More than two where the machine is so busy that a worker does not renew its lease in time.
+    assert!(job["attempts"].as_u64() >= Some(2), "{job}");
     for (id, expected) in ids.iter().zip(&expected) {
         assert_eq!(&bits::of(&server, id).await, expected);
         bits::events(&server, id, "done").await;

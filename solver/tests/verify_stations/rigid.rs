@@ -67,63 +67,68 @@ fn depth_of_the_rigid_ring() {
     assert!(depth > 15.8 && depth < 1.1 * 15.8);
 }
 
-/// The figures of the README: the thesis' ring with 17 stations at 2 %, and the plane contact under the same line load, one after the other.
-#[test]
-#[ignore = "takes minutes; run it by name"]
-#[expect(
-    clippy::disallowed_methods,
-    reason = "the test measures time; the engine knows no clock"
-)]
-fn cost_of_the_rigid_ring_against_the_plane_contact() {
-    let scene = ring(Top::Rigid, stations_for(0.02), 2_000);
-    let started = Instant::now();
-    let (summary, recorder) = solve(&plane(&scene, 1.0)).expect("the scene can be solved");
-    println!(
-        "plane contact: {:.1} s, {:.2} um after 2 000 cycles, {} increments",
-        started.elapsed().as_secs_f64(),
-        1e3 * recorder.at(2_000).receptacle.max_depth_mm,
-        summary.resolution.work.increments
-    );
-    let started = Instant::now();
-    let mut reported = 0;
-    let found = run(&scene, |cycle| {
-        if cycle.cycle >= reported {
-            let depth = |station: usize| 1e3 * cycle.stations[station].max_depth_mm.receptacle;
-            println!(
-                "ring, rigid: {:.2}, {:.2}, {:.2} um at 0, 45, 90 deg after {} cycles, {:.0} s",
-                depth(0),
-                depth(4),
-                depth(8),
-                cycle.cycle,
-                started.elapsed().as_secs_f64()
-            );
-            reported = cycle.cycle + 200;
-        }
-        ControlFlow::Continue(())
-    });
-    let found = found.expect("the scene can be solved");
-    let worn = found.last.worn_volume_mm3.receptacle;
-    let ideal = found
-        .last
-        .ideal_volume_mm3
-        .receptacle
-        .unwrap_or_default()
-        .max(f64::MIN_POSITIVE);
-    println!(
-        "ring, rigid: {:?} after {} cycles, {:.1} s, {} computed cycles, {:?} increments and iterations, {} sections condensed again, volume over k F s {:.4}",
-        found.outcome,
-        found.last.cycle,
-        started.elapsed().as_secs_f64(),
-        found.computed_cycles,
-        found.solves,
-        found.relocations,
-        worn / ideal
-    );
-    // As deep everywhere, but for the elastic approach.
-    let depths = found.last.stations.iter();
-    let depths = depths.map(|station| station.max_depth_mm.receptacle);
-    let (least, most) = depths.fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), depth| {
-        (least.min(depth), most.max(depth))
-    });
-    assert!(most / least - 1.0 < 0.01);
+mod night {
+    use super::*;
+
+    /// The figures of the README: the thesis' ring with 17 stations at 2 %, and the plane contact under the same line load, one after the other.
+    #[test]
+    #[ignore = "night: takes minutes"]
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "the test measures time; the engine knows no clock"
+    )]
+    fn cost_of_the_rigid_ring_against_the_plane_contact() {
+        let scene = ring(Top::Rigid, stations_for(0.02), 2_000);
+        let started = Instant::now();
+        let (summary, recorder) = solve(&plane(&scene, 1.0)).expect("the scene can be solved");
+        println!(
+            "plane contact: {:.1} s, {:.2} um after 2 000 cycles, {} increments",
+            started.elapsed().as_secs_f64(),
+            1e3 * recorder.at(2_000).receptacle.max_depth_mm,
+            summary.resolution.work.increments
+        );
+        let started = Instant::now();
+        let mut reported = 0;
+        let found = run(&scene, |cycle| {
+            if cycle.cycle >= reported {
+                let depth = |station: usize| 1e3 * cycle.stations[station].max_depth_mm.receptacle;
+                println!(
+                    "ring, rigid: {:.2}, {:.2}, {:.2} um at 0, 45, 90 deg after {} cycles, {:.0} s",
+                    depth(0),
+                    depth(4),
+                    depth(8),
+                    cycle.cycle,
+                    started.elapsed().as_secs_f64()
+                );
+                reported = cycle.cycle + 200;
+            }
+            ControlFlow::Continue(())
+        });
+        let found = found.expect("the scene can be solved");
+        let worn = found.last.worn_volume_mm3.receptacle;
+        let ideal = found
+            .last
+            .ideal_volume_mm3
+            .receptacle
+            .unwrap_or_default()
+            .max(f64::MIN_POSITIVE);
+        println!(
+            "ring, rigid: {:?} after {} cycles, {:.1} s, {} computed cycles, {:?} increments and iterations, {} sections condensed again, volume over k F s {:.4}",
+            found.outcome,
+            found.last.cycle,
+            started.elapsed().as_secs_f64(),
+            found.computed_cycles,
+            found.solves,
+            found.relocations,
+            worn / ideal
+        );
+        // As deep everywhere, but for the elastic approach.
+        let depths = found.last.stations.iter();
+        let depths = depths.map(|station| station.max_depth_mm.receptacle);
+        let (least, most) = depths
+            .fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), depth| {
+                (least.min(depth), most.max(depth))
+            });
+        assert!(most / least - 1.0 < 0.01);
+    }
 }

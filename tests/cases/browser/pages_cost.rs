@@ -43,76 +43,80 @@ async fn idle_requests(browser: &Browser) -> Value {
     found.expect("the page answers")
 }
 
-#[tokio::test]
-#[ignore = "takes minutes; run it by name"]
-async fn pages_cost_of_many_jobs_and_of_long_ones() {
-    let (_folder, server, browser) = service_and_browser().await;
-    let mut history = short("2 000 cycles, seven stations");
-    history["cycles"] = json!(2000);
-    history["accuracy"]["overrides"] = json!({"cycle_jump": 1});
-    history["output"] = json!({"stations_mm": [-0.03, -0.02, -0.01, 0, 0.01, 0.02, 0.03]});
-    let id = done(&server, &history).await;
-    for number in 1..LISTED {
-        submitted(&server, &short(&format!("job {number}"))).await;
-    }
-    let rows = "document.querySelectorAll('tr[data-job]').length === 100";
-    for _ in 0..3 {
-        let time = time_until(&browser, "/#/jobs", rows).await;
-        println!("list of {LISTED} jobs: {time:.0} ms until its first 100 rows can be used");
-    }
-    // The charts that every job has.
-    let drawn = "['wear', 'half-width', 'peak-pressure', 'worn-area', 'energy', 'profile', 'pressure', 'shear', 'loop']\
-         .every((name) => document.querySelector(`[data-chart=${name}] .plot .main-svg`))";
-    let in_view = "(() => { const seen = [...document.querySelectorAll('.chart .plot')].filter((plot) => plot.clientWidth > 0 && plot.getBoundingClientRect().top < innerHeight); \
-         return seen.length > 0 && seen.every((plot) => plot.querySelector('.main-svg')); })()";
-    for _ in 0..3 {
-        let path = format!("/#/job/{id}");
-        let seen = time_until(&browser, &path, in_view).await;
-        let all = time_until(&browser, &path, drawn).await;
-        println!(
-            "job of 2 000 cycles with seven stations: {seen:.0} ms until its charts in view are drawn, {all:.0} ms until all are"
-        );
-    }
-    println!(
-        "idle page of an ended job, {IDLE:?}: {}",
-        idle_requests(&browser).await
-    );
-    browser.close().await;
-}
+mod night {
+    use super::*;
 
-#[tokio::test]
-#[ignore = "takes minutes; run it by name"]
-async fn pages_cost_of_running_jobs() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let workers = RUNNING.to_string();
-    let server = Server::start_with(
-        folder.path(),
-        &["--workers", &workers, "--memory-mb", "100000"],
-    );
-    let browser = Browser::start(&server.base, folder.path()).await;
-    browser.open("/#/jobs").await;
-    browser.wait_for(COMPLETE).await;
-    println!(
-        "idle list without jobs, {IDLE:?}: {}",
-        idle_requests(&browser).await
-    );
-    for number in 0..RUNNING {
-        submitted(&server, &long(&format!("running {number}"))).await;
-    }
-    let running = format!("document.querySelectorAll('tr.running').length === {RUNNING}");
-    browser.wait_for(&running).await;
-    for look in 0..LOOKS {
-        let bytes = browser.heap_bytes().await;
+    #[tokio::test]
+    #[ignore = "night: takes minutes"]
+    async fn pages_cost_of_many_jobs_and_of_long_ones() {
+        let (_folder, server, browser) = service_and_browser().await;
+        let mut history = short("2 000 cycles, seven stations");
+        history["cycles"] = json!(2000);
+        history["accuracy"]["overrides"] = json!({"cycle_jump": 1});
+        history["output"] = json!({"stations_mm": [-0.03, -0.02, -0.01, 0, 0.01, 0.02, 0.03]});
+        let id = done(&server, &history).await;
+        for number in 1..LISTED {
+            submitted(&server, &short(&format!("job {number}"))).await;
+        }
+        let rows = "document.querySelectorAll('tr[data-job]').length === 100";
+        for _ in 0..3 {
+            let time = time_until(&browser, "/#/jobs", rows).await;
+            println!("list of {LISTED} jobs: {time:.0} ms until its first 100 rows can be used");
+        }
+        // The charts that every job has.
+        let drawn = "['wear', 'half-width', 'peak-pressure', 'worn-area', 'energy', 'profile', 'pressure', 'shear', 'loop']\
+             .every((name) => document.querySelector(`[data-chart=${name}] .plot .main-svg`))";
+        let in_view = "(() => { const seen = [...document.querySelectorAll('.chart .plot')].filter((plot) => plot.clientWidth > 0 && plot.getBoundingClientRect().top < innerHeight); \
+             return seen.length > 0 && seen.every((plot) => plot.querySelector('.main-svg')); })()";
+        for _ in 0..3 {
+            let path = format!("/#/job/{id}");
+            let seen = time_until(&browser, &path, in_view).await;
+            let all = time_until(&browser, &path, drawn).await;
+            println!(
+                "job of 2 000 cycles with seven stations: {seen:.0} ms until its charts in view are drawn, {all:.0} ms until all are"
+            );
+        }
         println!(
-            "{RUNNING} running jobs, {} s: {:.2} MB in use",
-            look * BETWEEN.as_secs(),
-            bytes / 1e6
+            "idle page of an ended job, {IDLE:?}: {}",
+            idle_requests(&browser).await
         );
-        tokio::time::sleep(BETWEEN).await;
+        browser.close().await;
     }
-    println!(
-        "list of {RUNNING} running jobs, {IDLE:?}: {}",
-        idle_requests(&browser).await
-    );
-    browser.close().await;
+
+    #[tokio::test]
+    #[ignore = "night: takes minutes"]
+    async fn pages_cost_of_running_jobs() {
+        let folder = tempfile::tempdir().expect("a folder can be made");
+        let workers = RUNNING.to_string();
+        let server = Server::start_with(
+            folder.path(),
+            &["--workers", &workers, "--memory-mb", "100000"],
+        );
+        let browser = Browser::start(&server.base, folder.path()).await;
+        browser.open("/#/jobs").await;
+        browser.wait_for(COMPLETE).await;
+        println!(
+            "idle list without jobs, {IDLE:?}: {}",
+            idle_requests(&browser).await
+        );
+        for number in 0..RUNNING {
+            submitted(&server, &long(&format!("running {number}"))).await;
+        }
+        let running = format!("document.querySelectorAll('tr.running').length === {RUNNING}");
+        browser.wait_for(&running).await;
+        for look in 0..LOOKS {
+            let bytes = browser.heap_bytes().await;
+            println!(
+                "{RUNNING} running jobs, {} s: {:.2} MB in use",
+                look * BETWEEN.as_secs(),
+                bytes / 1e6
+            );
+            tokio::time::sleep(BETWEEN).await;
+        }
+        println!(
+            "list of {RUNNING} running jobs, {IDLE:?}: {}",
+            idle_requests(&browser).await
+        );
+        browser.close().await;
+    }
 }

@@ -173,6 +173,30 @@ impl Found {
     }
 }
 
+impl Trial {
+    fn of_sections(draws: usize) -> Self {
+        Self {
+            numbers: draws::NUMBERS,
+            specification: draws::specification,
+            is_cheap: is_cheap_section,
+            faults,
+            draws,
+            most_cycles: 8,
+        }
+    }
+
+    fn of_other_dimensions(draws: usize) -> Self {
+        Self {
+            numbers: dimensions::NUMBERS,
+            specification: dimensions::specification,
+            is_cheap: is_cheap_across,
+            faults: across::faults,
+            draws,
+            most_cycles: 5,
+        }
+    }
+}
+
 fn run(trial: &Trial) {
     let seed = TestRng::from_seed(RngAlgorithm::ChaCha, &[setting("FRETWEAR_SEED", 1); 32]);
     let mut runner = TestRunner::new_with_rng(Config::default(), seed);
@@ -198,25 +222,28 @@ fn run(trial: &Trial) {
 
 #[test]
 fn any_specification_is_refused_or_satisfies_the_invariants_or_fails_with_numbers() {
-    run(&Trial {
-        numbers: draws::NUMBERS,
-        specification: draws::specification,
-        is_cheap: is_cheap_section,
-        faults,
-        draws: 200,
-        most_cycles: 8,
-    });
+    run(&Trial::of_sections(80));
 }
 
 #[test]
 fn any_specification_in_three_dimensions_is_refused_or_satisfies_the_invariants_or_fails_with_numbers()
  {
-    run(&Trial {
-        numbers: dimensions::NUMBERS,
-        specification: dimensions::specification,
-        is_cheap: is_cheap_across,
-        faults: across::faults,
-        draws: 120,
-        most_cycles: 5,
-    });
+    run(&Trial::of_other_dimensions(40));
+}
+
+mod long {
+    use super::{Trial, run};
+
+    #[test]
+    #[ignore = "long: takes 10 s"]
+    fn any_specification_is_refused_or_satisfies_the_invariants_or_fails_with_numbers() {
+        run(&Trial::of_sections(200));
+    }
+
+    #[test]
+    #[ignore = "long: takes 30 s"]
+    fn any_specification_in_three_dimensions_is_refused_or_satisfies_the_invariants_or_fails_with_numbers()
+     {
+        run(&Trial::of_other_dimensions(120));
+    }
 }
