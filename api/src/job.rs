@@ -35,6 +35,13 @@ impl Status {
     }
 }
 
+/// What a request that queues jobs again has done.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct RetriedJobs {
+    /// Jobs that are queued again.
+    pub retried: u64,
+}
+
 /// Progress of a job.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Progress {

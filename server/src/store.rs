@@ -31,6 +31,7 @@
 //! | `drain_worker` | one worker, which takes no more jobs | no |
 //! | `cancel` | a queued job ends with its `done` event; a running one is marked for its worker | no |
 //! | `cancel_batch` | none of its jobs are queued any more; then its jobs as by `cancel`, a limited number at once | no |
+//! | `retry`, `retry_all` | each job; by `retry_all` a limited number at once | no; only failed and cancelled jobs |
 //! | `expire` | all queued jobs whose deadline has passed end with their `done` events | no |
 //! | `delete` | a job with all rows; files afterwards, or at the next start | no; only ended jobs |
 //! | `delete_batch` | jobs as by `delete`, a limited number at once; the batch with the last of them | no; only ended jobs |

@@ -50,6 +50,7 @@ pub(super) fn routes_and_document() -> (Router<App>, Document) {
         .routes(routes!(jobs::show::show, jobs::delete::remove))
         .routes(routes!(jobs::cancel::cancel))
         .routes(routes!(jobs::retry::retry))
+        .routes(routes!(jobs::retry_filtered::retry_filtered))
         .routes(routes!(jobs::stream::events))
         .routes(routes!(results::list::manifest))
         .routes(routes!(results::download_file::file))
@@ -68,6 +69,7 @@ pub(super) fn routes_and_document() -> (Router<App>, Document) {
         ))
         .routes(routes!(batches::outcomes::sweep_outcomes))
         .routes(routes!(batches::cancel::cancel_sweep))
+        .routes(routes!(batches::retry::retry_sweep))
         .routes(routes!(
             batches::submit::submit_study,
             batches::list::list_studies
@@ -79,6 +81,7 @@ pub(super) fn routes_and_document() -> (Router<App>, Document) {
         .routes(routes!(batches::outcomes::study_table))
         .routes(routes!(batches::picture::study_picture))
         .routes(routes!(batches::cancel::cancel_study))
+        .routes(routes!(batches::retry::retry_study))
         .routes(routes!(jobs::plan::make_plan))
         .routes(routes!(systems::list::systems))
         .routes(routes!(systems::show::system))

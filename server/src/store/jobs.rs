@@ -76,6 +76,15 @@ pub struct Filter {
     pub limit: u32,
 }
 
+impl Filter {
+    /// Where the page after this one begins, in the order by creation, if one of so many jobs is full.
+    pub(in crate::store) fn next_page(&self, ids: &[Uuid]) -> Option<ListPlace> {
+        let is_full = ids.len() >= usize::try_from(self.limit).unwrap_or(usize::MAX);
+        let last = ids.last().copied().filter(|_| is_full);
+        last.map(|id| ListPlace { id, value: None })
+    }
+}
+
 /// Effect of a cancel request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cancelled {

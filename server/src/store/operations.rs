@@ -8,6 +8,7 @@ mod service;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use api::job::Status;
 use reqwest::Url;
 use uuid::Uuid;
 
@@ -17,9 +18,12 @@ use crate::store::local::Local;
 use crate::store::postgres::PostgresStore;
 use crate::store::sqlite::SqliteStore;
 use crate::store::{
-    AllChanges, BatchDetail, BatchPart, Changes, DataDisk, Deleted, Lease, Limits, SnapshotPart,
-    StoreError, StoredBatch,
+    AllChanges, BatchDetail, BatchPart, Changes, DataDisk, Deleted, Filter, Lease, Limits, Order,
+    SnapshotPart, StoreError, StoredBatch,
 };
+
+/// Jobs that are queued again in one transaction. Arbitrary: others wait for it.
+const RETRIED_AT_ONCE: u32 = 100;
 
 /// Jobs, batches, events and results, durable.
 #[derive(Debug)]
@@ -117,6 +121,31 @@ impl Store {
         self.end_expansion(id).await?;
         while self.cancel_some(id).await? {}
         Ok(())
+    }
+
+    /// Queues the failed and cancelled jobs again that pass a filter, each once. If it is interrupted, it can be repeated. Returns how many.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn retry_all(&self, filter: Filter) -> Result<u64, StoreError> {
+        let mut page = Filter {
+            order: Order::default(),
+            after: None,
+            limit: RETRIED_AT_ONCE,
+            ..filter
+        };
+        if page.statuses.is_empty() {
+            page.statuses = vec![Status::Failed, Status::Cancelled];
+        }
+        let mut retried = 0;
+        loop {
+            let (count, next) = self.retry_some(&page).await?;
+            retried += count;
+            page.after = next;
+            if page.after.is_none() {
+                return Ok(retried);
+            }
+        }
     }
 
     /// Deletes a batch whose jobs have all ended, with the jobs, their events, results and files. If it is interrupted, it can be

@@ -56,12 +56,13 @@ enum Rule {
 use Rule::{MustNotName, Nowhere, OneRoute, OnlyIn, OnlyInExcept, TextOnlyIn};
 
 /// Route files whose one implementation serves several paths.
-const SEVERAL_PATHS: [&str; 9] = [
+const SEVERAL_PATHS: [&str; 10] = [
     // Both kinds of batches: `/v1/sweeps` and `/v1/studies`.
     "server/src/http/routes/batches/cancel.rs",
     "server/src/http/routes/batches/delete.rs",
     "server/src/http/routes/batches/list.rs",
     "server/src/http/routes/batches/outcomes.rs",
+    "server/src/http/routes/batches/retry.rs",
     "server/src/http/routes/batches/show.rs",
     "server/src/http/routes/batches/submit.rs",
     // The three parts of a snapshot.

@@ -8,5 +8,6 @@ mod error;
 pub(crate) mod list;
 pub(crate) mod outcomes;
 pub(crate) mod picture;
+pub(crate) mod retry;
 pub(crate) mod show;
 pub(crate) mod submit;

@@ -7,6 +7,7 @@ pub(crate) mod list;
 pub(crate) mod list_labels;
 pub(crate) mod plan;
 pub(crate) mod retry;
+pub(crate) mod retry_filtered;
 pub(crate) mod show;
 pub(crate) mod stream;
 pub(crate) mod submit;

@@ -7,8 +7,8 @@ use uuid::Uuid;
 use crate::store::operations::operations;
 use crate::store::{
     BatchDetail, BatchFilter, BatchJob, BatchOverview, BatchPart, Cancelled, Deleted, Expansion,
-    Filter, Listed, NewBatch, NewJob, Portion, RequestKey, Retried, StoreError, StoredBatch,
-    StoredJob, Submitted,
+    Filter, ListPlace, Listed, NewBatch, NewJob, Portion, RequestKey, Retried, StoreError,
+    StoredBatch, StoredJob, Submitted,
 };
 
 operations! {
@@ -80,6 +80,10 @@ operations! {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn retry(&self, id: Uuid) -> Result<Option<Retried>, StoreError>;
+
+    /// Queues the failed and cancelled jobs again among those of a filter's page. Returns how many, and where the next page begins, if there is
+    /// one.
+    pub(in crate::store) async fn retry_some(&self, filter: &Filter) -> Result<(u64, Option<ListPlace>), StoreError>;
 
     /// Deletes a job that has ended, with its events, results and files.
     ///

@@ -3,6 +3,7 @@
 use api::job::{Job, JobOverview};
 use api::service::LabelInUse;
 use sqlx::{Postgres, QueryBuilder};
+use uuid::Uuid;
 
 use crate::store::document::document;
 use crate::store::job_ids::{first_created_at, first_created_before};
@@ -46,6 +47,12 @@ impl PostgresStore {
     pub(in crate::store) async fn present_ms(&self) -> Result<i64, StoreError> {
         let mut reader = self.readers.acquire().await?;
         Ok(self.now(&mut reader).await?.system_ms)
+    }
+
+    /// Ids of the jobs that pass a filter in the order by creation.
+    pub(super) async fn ids(&self, filter: &Filter) -> Result<Vec<Uuid>, StoreError> {
+        let mut query = listing("id", filter);
+        Ok(query.build_query_scalar().fetch_all(&self.readers).await?)
     }
 
     pub(in crate::store) async fn count(&self, filter: &Filter) -> Result<u64, StoreError> {

@@ -12,7 +12,8 @@ use crate::store::postgres::selects::select;
 use crate::store::postgres::{PostgresStore, begin};
 use crate::store::rows::StoredRow;
 use crate::store::{
-    Cancelled, Deleted, NewJob, RequestKey, Retried, StoreError, StoredJob, Submitted,
+    Cancelled, Deleted, Filter, ListPlace, NewJob, RequestKey, Retried, StoreError, StoredJob,
+    Submitted,
 };
 
 impl PostgresStore {
@@ -68,6 +69,29 @@ impl PostgresStore {
             self.local.concluded(id, Some(Status::Queued));
         }
         Ok(effect)
+    }
+
+    pub(in crate::store) async fn retry_some(
+        &self,
+        filter: &Filter,
+    ) -> Result<(u64, Option<ListPlace>), StoreError> {
+        self.local.disk.check()?;
+        let ids = self.ids(filter).await?;
+        let (mut transaction, now) = self.begin().await?;
+        let mut retried = Vec::with_capacity(ids.len());
+        // In the order in which others lock them.
+        for id in ids.iter().rev() {
+            if retry(&mut transaction, *id, now).await? == Some(Retried::Queued) {
+                retried.push(*id);
+            }
+        }
+        transaction.commit().await?;
+        for id in &retried {
+            self.local.changed(*id);
+        }
+        self.local.many_wait();
+        let count = retried.len().try_into().unwrap_or(u64::MAX);
+        Ok((count, filter.next_page(&ids)))
     }
 
     pub(in crate::store) async fn delete(&self, id: Uuid) -> Result<Deleted, StoreError> {

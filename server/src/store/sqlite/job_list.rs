@@ -5,6 +5,8 @@ use std::future::{Ready, ready};
 use api::job::{Job, JobOverview};
 use api::service::LabelInUse;
 use sqlx::{QueryBuilder, Sqlite};
+use uuid::Uuid;
+use uuid::fmt::Hyphenated;
 
 use crate::store::document::document;
 use crate::store::job_ids::{first_created_at, first_created_before};
@@ -47,6 +49,13 @@ impl SqliteStore {
 
     pub(in crate::store) fn present_ms(&self) -> Ready<Result<i64, StoreError>> {
         ready(Ok(self.local.clock.now().system_ms))
+    }
+
+    /// Ids of the jobs that pass a filter in the order by creation.
+    pub(super) async fn ids(&self, filter: &Filter) -> Result<Vec<Uuid>, StoreError> {
+        let mut query = listing("id", filter);
+        let ids: Vec<Hyphenated> = query.build_query_scalar().fetch_all(&self.readers).await?;
+        Ok(ids.into_iter().map(Uuid::from).collect())
     }
 
     pub(in crate::store) async fn count(&self, filter: &Filter) -> Result<u64, StoreError> {

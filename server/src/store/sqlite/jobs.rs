@@ -9,7 +9,7 @@ use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::job_rows::{cancel, retry, status_of};
 use crate::store::sqlite::queries::BEGIN;
 use crate::store::sqlite::selects::select;
-use crate::store::{Cancelled, Deleted, Retried, StoreError, StoredJob};
+use crate::store::{Cancelled, Deleted, Filter, ListPlace, Retried, StoreError, StoredJob};
 
 impl SqliteStore {
     pub(in crate::store) async fn job(&self, id: Uuid) -> Result<Option<StoredJob>, StoreError> {
@@ -48,6 +48,29 @@ impl SqliteStore {
             self.local.concluded(id, Some(Status::Queued));
         }
         Ok(effect)
+    }
+
+    pub(in crate::store) async fn retry_some(
+        &self,
+        filter: &Filter,
+    ) -> Result<(u64, Option<ListPlace>), StoreError> {
+        self.local.disk.check()?;
+        let ids = self.ids(filter).await?;
+        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let now = self.local.clock.now();
+        let mut retried = Vec::with_capacity(ids.len());
+        for id in &ids {
+            if retry(&mut transaction, *id, now).await? == Some(Retried::Queued) {
+                retried.push(*id);
+            }
+        }
+        transaction.commit().await?;
+        for id in &retried {
+            self.local.changed(*id);
+        }
+        self.local.many_wait();
+        let count = retried.len().try_into().unwrap_or(u64::MAX);
+        Ok((count, filter.next_page(&ids)))
     }
 
     pub(in crate::store) async fn delete(&self, id: Uuid) -> Result<Deleted, StoreError> {

@@ -33,9 +33,9 @@ pub(crate) enum ListError {
     /// Not a status.
     #[error("`{0}` is not a status; statuses are {1}")]
     Status(String, String),
-    /// Not a parameter of this list.
-    #[error("`{0}` is not a parameter; parameters are {PARAMETERS}")]
-    Unknown(String),
+    /// Not a parameter.
+    #[error("`{0}` is not a parameter; parameters are {1}")]
+    Unknown(String, String),
     /// Given twice.
     #[error("`{0}` is given twice")]
     Twice(String),
@@ -72,8 +72,11 @@ impl RouteError for ListError {
     const TYPE: ProblemType = ProblemType::INVALID_QUERY;
 }
 
-/// Names of the parameters below.
-const PARAMETERS: &str = "status, system, label, created_from, created_before, sweep, text, sort, total, view, limit and page_token";
+/// Names of the parameters of a filter.
+pub(super) const FILTERS: &str =
+    "status, system, label, created_from, created_before, sweep and text";
+/// Names of the further parameters of a list.
+const PAGES: &str = "sort, total, view, limit and page_token";
 
 /// Orders by the names of the parameter `sort`.
 const ORDERS: [(&str, OrderKey); 8] = [
@@ -87,14 +90,14 @@ const ORDERS: [(&str, OrderKey); 8] = [
     ("duration", OrderKey::Duration),
 ];
 
-/// Filters and page; a listed job passes all filters.
+/// Filters; a job passes all of them.
 #[derive(Debug, Default, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[expect(
     dead_code,
     reason = "only describes the parameters, which are parsed one by one because labels repeat"
 )]
-pub(crate) struct ListQuery {
+pub(crate) struct FilterQuery {
     /// Any of these statuses, separated by commas.
     status: Option<String>,
     /// This kind of system.
@@ -110,6 +113,16 @@ pub(crate) struct ListQuery {
     /// In the name, the value of a label or the id, whatever the case of ASCII letters.
     #[param(min_length = 1, max_length = 200)]
     text: Option<String>,
+}
+
+/// Order and page of a list.
+#[derive(Debug, Default, IntoParams)]
+#[into_params(parameter_in = Query)]
+#[expect(
+    dead_code,
+    reason = "only describes the parameters, which are parsed one by one because labels repeat"
+)]
+pub(crate) struct PageQuery {
     /// What the jobs are ordered by, the smallest first, or with a `-` in front the largest: `created`, `name`, `system`, `status`, `progress`,
     /// `wear` (the deeper one of both sides), `life` (cycles until the first criterion) or `duration`; `-created` by default. Jobs without a value come last. A page
     /// begins behind the last job of the one before: only a job whose own value changes between two pages can be listed twice or not at all.
@@ -161,7 +174,7 @@ struct ParsedQuery<'a> {
     get,
     path = "/v1/jobs",
     tag = "jobs",
-    params(ListQuery),
+    params(FilterQuery, PageQuery),
     responses(
         (status = 200, description = "A page of jobs", body = JobList),
     )
@@ -224,7 +237,32 @@ pub(crate) async fn list(
 /// Parses the query into filter, limit and page token.
 fn parse(pairs: &[(String, String)]) -> Result<ParsedQuery<'_>, ListError> {
     let mut query = ParsedQuery::default();
-    let filter = &mut query.filter;
+    let others = filter_among(pairs, &mut query.filter)?;
+    for (name, value) in others {
+        match name {
+            "sort" => query.filter.order = order(value)?,
+            "total" => {
+                let total = value.parse();
+                query.total = total.map_err(|_| ListError::Total(shortened(value)))?;
+            }
+            "view" => query.view = self::view(value)?,
+            "limit" => query.limit = Some(value),
+            "page_token" => query.token = Some(value),
+            _ => {
+                let known = format!("{}, {PAGES}", FILTERS.replace(" and", ","));
+                return Err(ListError::Unknown(shortened(name), known));
+            }
+        }
+    }
+    Ok(query)
+}
+
+/// Parses the parameters that filter jobs; returns the others.
+pub(super) fn filter_among<'a>(
+    pairs: &'a [(String, String)],
+    filter: &mut Filter,
+) -> Result<Vec<(&'a str, &'a str)>, ListError> {
+    let mut others = Vec::new();
     for (index, (name, value)) in pairs.iter().enumerate() {
         let twice = pairs[..index].iter().any(|(earlier, _)| earlier == name);
         if twice && name != "label" {
@@ -241,21 +279,13 @@ fn parse(pairs: &[(String, String)]) -> Result<ParsedQuery<'_>, ListError> {
                 filter.sweep = Some(id.map_err(|_| ListError::Sweep(shortened(value)))?);
             }
             "text" => filter.text = Some(text(value)?),
-            "sort" => filter.order = order(value)?,
-            "total" => {
-                let total = value.parse();
-                query.total = total.map_err(|_| ListError::Total(shortened(value)))?;
-            }
-            "view" => query.view = self::view(value)?,
-            "limit" => query.limit = Some(value.as_str()),
-            "page_token" => query.token = Some(value.as_str()),
-            _ => return Err(ListError::Unknown(shortened(name))),
+            name => others.push((name, value.as_str())),
         }
     }
     if filter.labels.len() > MAX_LABELS {
         return Err(ListError::Labels(filter.labels.len()));
     }
-    Ok(query)
+    Ok(others)
 }
 
 fn text(value: &str) -> Result<String, ListError> {
