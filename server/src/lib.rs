@@ -14,6 +14,7 @@ pub mod metrics;
 mod number;
 pub mod objects;
 pub mod placement;
+pub mod program;
 pub mod queue;
 pub mod rating;
 pub mod reference;

@@ -12,6 +12,7 @@ use crate::cli::arguments::BenchArguments;
 use crate::cli::terminal::{Ended, failed, write_err, write_out};
 use crate::estimate::machine;
 use crate::export::markdown;
+use crate::program;
 
 pub(super) fn run(arguments: &BenchArguments) -> Ended {
     if arguments.predictions {
@@ -70,7 +71,6 @@ fn against_ccx(elements_um: &[f64]) -> Ended {
 fn compare(tolerances: &[f64]) -> Result<Table, BenchError> {
     write_err("fretwear: measuring the machine");
     let figures = machine::measure()?;
-    let program = std::env::current_exe()?;
     let mut table: Option<Table> = None;
     for tolerance in tolerances {
         for scene in predictions::scenes()? {
@@ -79,7 +79,7 @@ fn compare(tolerances: &[f64]) -> Result<Table, BenchError> {
                 scene.0,
                 100.0 * tolerance
             ));
-            let prediction = predictions::compare(&program, &figures, &scene, *tolerance)?;
+            let prediction = predictions::compare(&program::own(), &figures, &scene, *tolerance)?;
             table
                 .get_or_insert_with(|| markdown::table(header(&prediction), 1))
                 .add_row(cells(&prediction));

@@ -19,6 +19,7 @@ use crate::export::files;
 use crate::export::files::FilesError;
 use crate::solve;
 use crate::solve::checkpoint::CheckpointPolicy;
+use crate::solve::process::NAME;
 use crate::solve::protocol::{COMMAND, EXIT_FILE_NOT_WRITTEN, EXIT_ORPHANED, Input};
 use crate::solve::{Failure, FieldsFile, Line};
 use crate::spec;
@@ -78,7 +79,7 @@ fn report(line: &Line) -> Ended {
     }
 }
 
-/// Limits the memory that may be written to, and turns a request to terminate into a flag. Address space that is only
+/// Limits the memory that may be written to, turns a request to terminate into a flag, and names the process. Address space that is only
 /// reserved, as allocators do, is not counted.
 fn prepare(arguments: &ChildArguments, stop: &Arc<AtomicBool>) -> std::io::Result<()> {
     if let Some(limit) = arguments.memory_limit_mb {
@@ -86,6 +87,8 @@ fn prepare(arguments: &ChildArguments, stop: &Arc<AtomicBool>) -> std::io::Resul
         setrlimit(Resource::RLIMIT_DATA, bytes, bytes)?;
     }
     signal_hook::flag::register(SIGTERM, Arc::clone(stop))?;
+    // The program is started by a path that does not have its name; without it, lists of processes show another one.
+    let _ = std::fs::write("/proc/self/comm", NAME);
     Ok(())
 }
 

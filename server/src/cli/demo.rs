@@ -15,6 +15,7 @@ use crate::cli::table;
 use crate::cli::terminal::{Ended, failed, write_err, write_out};
 use crate::client::{Client, ClientError};
 use crate::http::Access;
+use crate::program;
 use crate::service::{Config, JOBS_AHEAD, Service, ServiceError};
 use crate::store::Limits;
 use crate::worker::WorkerConfig;
@@ -45,7 +46,6 @@ async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
     let folder = PathBuf::from("fretwear-data").join(format!("demo-{}", Uuid::now_v7()));
     fs_err::create_dir_all(&folder)?;
     let database = format!("sqlite://{}", folder.join("fretwear.db").display());
-    let program = std::env::current_exe()?;
     let service = Service::start(Config {
         listen,
         tls: None,
@@ -57,7 +57,7 @@ async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
         limits: Limits::default(),
         keep_days: None,
         jobs_ahead: JOBS_AHEAD,
-        worker: WorkerConfig::new(program),
+        worker: WorkerConfig::new(program::own()),
     })
     .await?;
     let base = format!("http://{}", service.address);

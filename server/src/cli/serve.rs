@@ -8,10 +8,10 @@ use crate::cli::arguments::{LogFormat, ServeArguments};
 use crate::cli::runtime::block_on;
 use crate::cli::terminal::{Ended, failed, write_err};
 use crate::objects::Objects;
+use crate::program;
 use crate::service::{Config, Service};
 
 pub(super) fn run(arguments: ServeArguments) -> Ended {
-    let program = std::env::current_exe().map_err(failed)?;
     warn_of_umask();
     let access = arguments.access.access(arguments.listen.name);
     let access = access.map_err(failed)?;
@@ -28,7 +28,7 @@ pub(super) fn run(arguments: ServeArguments) -> Ended {
         limits: work.limits(),
         keep_days: work.keep_days,
         jobs_ahead: work.jobs_ahead,
-        worker: work.config(program),
+        worker: work.config(program::own()),
         database: arguments.database,
         files: arguments.files,
         objects,

@@ -7,11 +7,10 @@ use crate::batch::accuracy::{Request, RunPlanError, StudyError, report};
 use crate::cli::specification;
 use crate::cli::terminal::{Ended, failed, failed_at, refused, spinner, write_json, write_out};
 use crate::estimate::machine::{CalibrationCache, cache_file};
+use crate::program;
 
 pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64, json: bool) -> Ended {
     let resolved = specification::resolved_for(spec, out)?;
-    let program = std::env::current_exe()
-        .map_err(|cause| failed(format_args!("the path of this program: {cause}")))?;
     let cache = CalibrationCache::open(cache_file());
     let machine = cache
         .get_or_measure()
@@ -20,7 +19,7 @@ pub(super) fn run(spec: &Path, out: Option<&Path>, budget_s: f64, json: bool) ->
     let request = Request {
         resolved: &resolved,
         machine,
-        program,
+        program: program::own(),
         budget_s,
     };
     let made = accuracy::make(&request, &mut |run| spinner.set_message(run.to_owned()));

@@ -11,6 +11,7 @@ use crate::cli::arguments::WorkArguments;
 use crate::cli::runtime::block_on;
 use crate::cli::serve::until_signal;
 use crate::cli::terminal::{Ended, failed};
+use crate::program;
 use crate::worker;
 use crate::worker::{EmployerError, Remote, WorkerProcess};
 
@@ -18,9 +19,8 @@ use crate::worker::{EmployerError, Remote, WorkerProcess};
 const RESTART_PAUSE: Duration = Duration::from_secs(1);
 
 pub(super) fn run(arguments: &WorkArguments) -> Ended {
-    let program = std::env::current_exe().map_err(failed)?;
     let client = arguments.service.client()?;
-    let config = Arc::new(arguments.work.config(program));
+    let config = Arc::new(arguments.work.config(program::own()));
     let scratch = Scratch::new(arguments.scratch.as_deref()).map_err(failed)?;
     block_on(async {
         let process = Arc::new(WorkerProcess::new(config.memory_mb, true));

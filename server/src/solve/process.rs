@@ -20,6 +20,8 @@ use crate::solve::Line;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::solve::protocol::{COMMAND, Input};
 
+/// Name of the process in lists of processes, whatever the path of its program.
+pub(crate) const NAME: &str = "fretwear";
 /// Longest line of a solving process, bytes: several times a snapshot with the largest allowed number of surface
 /// elements.
 const LINE_LIMIT: usize = 256 << 20;
@@ -126,6 +128,7 @@ impl SolveCommand<'_> {
     pub(crate) fn spawn(&self) -> std::io::Result<SolveProcess> {
         let every_ms = self.checkpoint_every.as_millis().to_string();
         let mut command = Command::new(self.program);
+        command.arg0(NAME);
         command.args([COMMAND, "--checkpoint-every-ms", &every_ms]);
         command.args(["--threads", &self.threads.to_string()]);
         if let Some(limit) = self.memory_limit_mb {

@@ -11,6 +11,7 @@ use crate::estimate::Estimate;
 use crate::estimate::machine::coefficients::{MachineError, NODES, checked, condensation_terms};
 use crate::estimate::workload::Workload;
 use crate::number::real;
+use crate::program;
 use crate::solve::thread_cpu_s;
 use crate::spec;
 
@@ -176,8 +177,7 @@ fn two_terms(samples: &[Sample]) -> [f64; 2] {
 /// Identifies this build of the program: version and build time.
 pub(crate) fn program() -> String {
     let built = || {
-        let program = std::env::current_exe().ok()?;
-        let modified = program.metadata().ok()?.modified().ok()?;
+        let modified = program::own().metadata().ok()?.modified().ok()?;
         let since = modified.duration_since(std::time::UNIX_EPOCH).ok()?;
         Some(since.as_secs())
     };
