@@ -73,4 +73,6 @@ pub struct RemoteWorker {
     pub last_contact_s: u64,
     /// Whether it takes no more jobs, and ends when it has solved those that it holds.
     pub is_draining: bool,
+    /// Why it starts no solves at present, and gives the jobs back that it claims; null if its last one has started.
+    pub failing: Option<String>,
 }

@@ -47,6 +47,8 @@ pub struct Gauges {
     pub workers_alive: i64,
     /// Slots of remote workers.
     pub remote_slots: i64,
+    /// Processes with workers that start no solves at present.
+    pub workers_failing: i64,
     /// Estimated processor time of the waiting jobs, s.
     pub demand_cpu_s: i64,
     /// Jobs whose results wait to be moved to the store of objects.
@@ -67,6 +69,7 @@ pub struct Metrics {
     workers_alive: Gauge,
     workers_busy: Gauge,
     remote_slots: Gauge,
+    workers_failing: Gauge,
     demand_cpu: Gauge,
     results_to_move: Gauge,
     answers: Family<[(&'static str, String); 3], Counter>,
@@ -188,6 +191,7 @@ impl Metrics {
         self.disk_free.set(gauges.disk_free_bytes);
         self.workers_alive.set(gauges.workers_alive);
         self.remote_slots.set(gauges.remote_slots);
+        self.workers_failing.set(gauges.workers_failing);
         self.demand_cpu.set(gauges.demand_cpu_s);
         self.results_to_move.set(gauges.results_to_move);
         self.process.read();
@@ -251,6 +255,11 @@ impl Default for Metrics {
             workers_alive: add(r, "workers_alive", "Workers that run"),
             workers_busy: add(r, "workers_busy", "Workers that have a job"),
             remote_slots: add(r, "remote_slots", "Slots of remote workers"),
+            workers_failing: add(
+                r,
+                "workers_failing",
+                "Processes with workers that start no solves at present",
+            ),
             demand_cpu: add_in(
                 r,
                 Unit::Other("cpu_seconds".to_owned()),

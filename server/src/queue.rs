@@ -1,7 +1,7 @@
 //! The queue's rules, as pure functions.
 //!
 //! Transitions: `queued -> running -> succeeded | failed | cancelled`; a running job returns to the queue when its
-//! worker was lost (a bounded number of times) or released it (which costs no attempt). A failed or cancelled job returns to
+//! worker was lost (a bounded number of times), or released or declined it (which costs no attempt). A failed or cancelled job returns to
 //! the queue if its user asks for another try.
 
 mod admission;
@@ -33,6 +33,8 @@ pub enum Transition {
     Cancel,
     /// Its worker releases it at a graceful shutdown.
     Release,
+    /// Its worker cannot make the attempt at present, by no fault of the job.
+    Decline,
     /// Its worker was lost.
     WorkerLost,
     /// Its deadline has passed.
@@ -45,7 +47,7 @@ pub enum Transition {
 /// number of lost workers, and one that loses them at the same place does not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Attempts {
-    /// Claims since the last new checkpoint, without the released ones.
+    /// Claims since the last new checkpoint, without the released and declined ones.
     pub fruitless: u32,
     /// Largest number of them.
     pub limit: u32,
@@ -62,10 +64,12 @@ pub fn next_status(
         (Status::Queued, Transition::Claim) => Some(Status::Running),
         (Status::Queued | Status::Running, Transition::Cancel) => Some(Status::Cancelled),
         (Status::Running, Transition::Succeed) => Some(Status::Succeeded),
-        (Status::Running, Transition::Release | Transition::WorkerLost) if cancel_requested => {
+        (Status::Running, Transition::Release | Transition::Decline | Transition::WorkerLost)
+            if cancel_requested =>
+        {
             Some(Status::Cancelled)
         }
-        (Status::Running, Transition::Release)
+        (Status::Running, Transition::Release | Transition::Decline)
         | (Status::Failed | Status::Cancelled, Transition::Retry) => Some(Status::Queued),
         (Status::Running, Transition::WorkerLost) if attempts.fruitless < attempts.limit => {
             Some(Status::Queued)
@@ -74,7 +78,11 @@ pub fn next_status(
         | (Status::Queued | Status::Running, Transition::Expire) => Some(Status::Failed),
         (
             Status::Queued,
-            Transition::Succeed | Transition::Fail | Transition::Release | Transition::WorkerLost,
+            Transition::Succeed
+            | Transition::Fail
+            | Transition::Release
+            | Transition::Decline
+            | Transition::WorkerLost,
         )
         | (Status::Queued | Status::Running, Transition::Retry)
         | (Status::Running, Transition::Claim)
@@ -86,12 +94,13 @@ pub fn next_status(
 mod tests {
     use super::*;
 
-    const TRANSITIONS: [Transition; 8] = [
+    const TRANSITIONS: [Transition; 9] = [
         Transition::Claim,
         Transition::Succeed,
         Transition::Fail,
         Transition::Cancel,
         Transition::Release,
+        Transition::Decline,
         Transition::WorkerLost,
         Transition::Expire,
         Transition::Retry,
@@ -106,22 +115,22 @@ mod tests {
                     for cancel_requested in [false, true] {
                         let expected = match (status.as_str(), transition) {
                             ("queued", Transition::Claim) => Some("running"),
-                            ("failed" | "cancelled", Transition::Retry) => Some("queued"),
                             ("queued" | "running", Transition::Cancel) => Some("cancelled"),
                             ("running", Transition::Succeed) => Some("succeeded"),
                             ("queued" | "running", Transition::Expire)
                             | ("running", Transition::Fail) => Some("failed"),
-                            ("running", Transition::Release | Transition::WorkerLost)
-                                if cancel_requested =>
-                            {
-                                Some("cancelled")
-                            }
+                            (
+                                "running",
+                                Transition::Release | Transition::Decline | Transition::WorkerLost,
+                            ) if cancel_requested => Some("cancelled"),
                             ("running", Transition::WorkerLost) if fruitless >= ATTEMPT_LIMIT => {
                                 Some("failed")
                             }
-                            ("running", Transition::Release | Transition::WorkerLost) => {
-                                Some("queued")
-                            }
+                            ("failed" | "cancelled", Transition::Retry)
+                            | (
+                                "running",
+                                Transition::Release | Transition::Decline | Transition::WorkerLost,
+                            ) => Some("queued"),
                             _ => None,
                         };
                         let attempts = Attempts {

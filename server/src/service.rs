@@ -121,13 +121,14 @@ impl Service {
         tracing::info!(%address, database = shown_address(&config.database), workers = config.workers, queued, ending, "service started");
         let (stopping, supervisor) = (CancellationToken::new(), Arc::new(Supervisor::default()));
         let mut tasks = Tasks::new(&store, &supervisor, &stopping);
-        tasks.start_workers(config.workers, &worker);
+        let health = tasks.start_workers(config.workers, &worker);
         let app = App::new(
             Arc::clone(&store),
             config.access,
             (stopping.clone(), Arc::clone(&supervisor)),
             http::openapi::document(),
-        );
+        )
+        .with_workers(health);
         app.workers.exchange(&store).await;
         tasks.start_upkeep(&app, &worker, (config.keep_days, reclaimed));
         if moves_results {

@@ -9,6 +9,7 @@ use tokio::task::AbortHandle;
 use tokio_util::sync::CancellationToken;
 use tokio_util::task::AbortOnDropHandle;
 
+use crate::backoff::Backoff;
 use crate::metrics::Metrics;
 
 /// Recent failures of a task from which on the service is not ready. Arbitrary: a bug that one rare job triggers fails
@@ -18,9 +19,8 @@ const REPEATED: usize = 3;
 /// When tasks are restarted.
 #[derive(Debug, Clone, Copy)]
 struct RestartPolicy {
-    /// Pause before the first restart; doubled with each recent failure.
-    pause: Duration,
-    longest_pause: Duration,
+    /// Pauses before restarts, by the number of recent failures.
+    pauses: Backoff,
     /// Time for which a failure counts as recent.
     recent: Duration,
 }
@@ -28,19 +28,12 @@ struct RestartPolicy {
 impl Default for RestartPolicy {
     fn default() -> Self {
         Self {
-            pause: Duration::from_secs(1),
-            longest_pause: Duration::from_secs(30),
+            pauses: Backoff {
+                first: Duration::from_secs(1),
+                longest: Duration::from_secs(30),
+            },
             recent: Duration::from_mins(5),
         }
-    }
-}
-
-impl RestartPolicy {
-    /// Pause before the restart after so many recent failures.
-    fn pause_after(&self, failures: usize) -> Duration {
-        let doublings = u32::try_from(failures.saturating_sub(1)).unwrap_or(u32::MAX);
-        let pause = self.pause.saturating_mul(2_u32.saturating_pow(doublings));
-        pause.min(self.longest_pause)
     }
 }
 
@@ -104,7 +97,7 @@ impl Supervisor {
                 task_of.running = None;
                 task_of.forget_failures_before(self.policy.recent);
                 task_of.failed.push(Instant::now());
-                self.policy.pause_after(task_of.failed.len())
+                self.policy.pauses.pause_after(task_of.failed.len())
             });
             tokio::select! {
                 () = tokio::time::sleep(pause) => {}
@@ -153,8 +146,10 @@ pub(crate) mod tests {
     }
 
     const SHORT: RestartPolicy = RestartPolicy {
-        pause: Duration::from_millis(1),
-        longest_pause: Duration::from_millis(5),
+        pauses: Backoff {
+            first: Duration::from_millis(1),
+            longest: Duration::from_millis(5),
+        },
         recent: Duration::from_hours(1),
     };
 
@@ -208,12 +203,5 @@ pub(crate) mod tests {
         stopping.cancel();
         running.await.expect("it ends");
         assert!(supervisor.failing().is_empty());
-    }
-
-    #[test]
-    fn pauses_double_up_to_a_bound() {
-        let policy = RestartPolicy::default();
-        let pauses = [1, 2, 3, 100].map(|failures| policy.pause_after(failures).as_secs());
-        assert_eq!(pauses, [1, 2, 4, 30]);
     }
 }

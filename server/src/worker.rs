@@ -5,6 +5,7 @@ mod computed;
 mod config;
 mod employer;
 mod end;
+mod health;
 mod manifest;
 mod process;
 pub mod protocol;
@@ -21,12 +22,14 @@ use tracing::Instrument;
 use crate::store::Lease;
 
 use attempt::Attempt;
-use config::RETRY_PAUSE;
+use config::RETRY;
+use process::Claimed;
 use supervisor::supervise;
 
 pub use attempt::finalize_lost_job;
 pub use config::{REMOTE_LEASE, WorkerConfig};
-pub use employer::{Employer, EmployerError, Remote};
+pub use employer::{Employer, EmployerError, Remote, RemoteOptions};
+pub use health::WorkerHealth;
 pub use process::WorkerProcess;
 
 /// Interval at which an idle worker polls the queue, in case it missed a notification.
@@ -58,9 +61,10 @@ pub async fn work<E: Employer>(
                 return Ok(());
             }
             Err(error) if error.is_rejected() => return Err(error),
+            // A claim has been followed by a pause of all workers of the process.
             Err(error) => {
-                tracing::error!(%error, "a worker had no answer");
-                tokio::time::sleep(RETRY_PAUSE).await;
+                tracing::warn!(%error, "a worker had no answer");
+                tokio::time::sleep(RETRY.first).await;
             }
         }
     }
@@ -95,7 +99,13 @@ async fn next<E: Employer>(
     (process, config): (&WorkerProcess, &WorkerConfig),
     stopping: &CancellationToken,
 ) -> Result<bool, EmployerError> {
-    let Some((claims, memory)) = process.claim(employer, config, stopping).await? else {
+    let claimed = process.claim(employer, config, stopping).await?;
+    let Some(Claimed {
+        claims,
+        memory,
+        round,
+    }) = claimed
+    else {
         return Ok(false);
     };
     // Also after an error or a panic, without an end.
@@ -109,6 +119,7 @@ async fn next<E: Employer>(
             claim,
             config,
             threads: memory.threads,
+            round,
         };
         let span = tracing::info_span!("job", id = %claim.id, lease = claim.lease, attempt = claim.attempt);
         let _busy = employer.busy();

@@ -70,9 +70,9 @@ function counted(number, one, several) {
  */
 function remote_table(workers, drain) {
   const memory = (/** @type {number} */ mb) => `${(mb / 1000).toFixed(1)} GB`;
-  const end = (/** @type {any} */ { host, id, is_draining }) => is_draining
+  const end = (/** @type {any} */ { host, id, is_draining, failing }) => is_draining
     ? element("span", { class: "muted" }, "takes no more jobs")
-    : element("button", { type: "button", "aria-label": `Drain ${host || "unnamed"} ${id}`, title: "It takes no more jobs and ends when it has solved those that it has.", click: () => drain(id) }, "Drain");
+    : element("span", {}, failing ? `Solves nothing at present: ${failing} ` : "", element("button", { type: "button", "aria-label": `Drain ${host || "unnamed"} ${id}`, title: "It takes no more jobs and ends when it has solved those that it has.", click: () => drain(id) }, "Drain"));
   const row = (/** @type {any} */ worker) => [
     worker.host || "unnamed", count(worker.jobs), count(worker.slots), memory(worker.free_memory_mb), memory(worker.memory_mb),
     `${duration(worker.last_contact_s)} ago`, element("code", {}, worker.id), end(worker),

@@ -38,6 +38,7 @@ pub(super) fn arguments() -> Option<ChildArguments> {
 pub(super) fn run(arguments: &ChildArguments) -> Ended {
     let stop = Arc::new(AtomicBool::new(false));
     prepare(arguments, &stop).map_err(failed)?;
+    report(&Line::Ready)?;
     let input = Input::read(std::io::stdin().lock()).map_err(failed)?;
     let mut resolved = match spec::read(input.spec.as_bytes()) {
         Ok(resolved) => resolved,

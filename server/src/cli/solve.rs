@@ -102,7 +102,8 @@ fn record(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
             bar.println(format!("the run restarts at cycle 0: {cause}"));
             *recorded = Recorded::default();
         }
-        Line::File(_)
+        Line::Ready
+        | Line::File(_)
         | Line::Checkpoint(_)
         | Line::Summary(_)
         | Line::Failed(_)

@@ -13,8 +13,11 @@ use crate::cli::serve::until_signal;
 use crate::cli::terminal::{Ended, failed};
 use crate::program;
 use crate::worker;
-use crate::worker::{EmployerError, Remote, WorkerProcess};
+use crate::worker::{EmployerError, Remote, RemoteOptions, WorkerProcess};
 
+/// Rounds of declined attempts in a row after which the process ends, so that whoever has started it learns that it is of no use: some two
+/// minutes.
+const MOST_DECLINED: usize = 8;
 /// Pause before a worker is started for one that has panicked.
 const RESTART_PAUSE: Duration = Duration::from_secs(1);
 
@@ -25,11 +28,15 @@ pub(super) fn run(arguments: &WorkArguments) -> Ended {
     block_on(async {
         let process = Arc::new(WorkerProcess::new(config.memory_mb, true));
         let slots = arguments.work.slots();
-        let remote = Arc::new(Remote::new(
-            (client, process.id(), slots),
-            scratch.0.clone(),
-            (config.lease, arguments.work.wait()),
-        ));
+        let remote = Arc::new(Remote::new(RemoteOptions {
+            client,
+            worker: process.id(),
+            health: Arc::clone(process.health()),
+            slots,
+            scratch: scratch.0.clone(),
+            lease: config.lease,
+            wait: arguments.work.wait(),
+        }));
         let stopping = CancellationToken::new();
         let start = || {
             let shared = (Arc::clone(&process), Arc::clone(&config));
@@ -44,6 +51,9 @@ pub(super) fn run(arguments: &WorkArguments) -> Ended {
         );
         let ended = tokio::select! {
             ended = all(&mut workers, start) => ended.map_err(failed),
+            cause = process.health().declined_in_a_row(MOST_DECLINED) => Err(failed(format_args!(
+                "no job could be solved here {MOST_DECLINED} times in a row; the last time: {cause}"
+            ))),
             signal = until_signal() => signal.map_err(failed),
         };
         // Running solves write a last checkpoint, and their jobs return to the queue.

@@ -12,6 +12,7 @@ use crate::http::slots::Slots;
 use crate::http::worker_registry::WorkerRegistry;
 use crate::store::Store;
 use crate::supervision::Supervisor;
+use crate::worker::WorkerHealth;
 
 /// Maximum number of concurrent requests, over all connections; more wait. Event streams count until their response starts; long polls
 /// have a lower limit of their own.
@@ -48,6 +49,8 @@ pub struct App {
     pub(super) stream_permits: Arc<Semaphore>,
     /// Processes with remote workers.
     pub(crate) workers: Arc<WorkerRegistry>,
+    /// Health of the workers in this process.
+    pub(crate) health: Arc<WorkerHealth>,
 }
 
 impl App {
@@ -71,6 +74,13 @@ impl App {
             request_permits: Arc::new(Semaphore::new(MAX_REQUESTS)),
             stream_permits: Arc::new(Semaphore::new(MAX_STREAMS)),
             workers: Arc::default(),
+            health: Arc::default(),
         }
+    }
+
+    /// The same with workers in this process.
+    #[must_use]
+    pub fn with_workers(self, health: Arc<WorkerHealth>) -> Self {
+        Self { health, ..self }
     }
 }

@@ -103,6 +103,8 @@ problem_types! {
         "The results of this job are in a store of objects (`--objects`), which does not answer. Jobs are solved all the same, and their results stay in the database until it answers. Send the request again after the time in `Retry-After`.";
     TASK_FAILING, 503, "task-failing", "a task of the service fails repeatedly",
         "A task inside the service ended repeatedly and is restarted each time; `detail` names it, the log of the service says why.";
+    WORKERS_FAILING, 503, "workers-failing", "no job can be started here",
+        "The solving process of a job could not be started on the machine of the service, or had no space for its files; `detail` says why. The job has gone back to the queue without an attempt lost, for other workers or a later try: the service tries again after pauses that grow up to a minute. Repair the machine; a service that was replaced while it ran is best restarted.";
     INTERNAL, 500, "internal", "internal error",
         "An error of the service, or of its machine. The cause is in the log of the service, not in the answer. Send the request again; if it fails again, report it with the log.";
 }

@@ -18,6 +18,8 @@ const SHOW_EVERY: Duration = Duration::from_secs(2);
 const FORGOTTEN: Duration = Duration::from_mins(1);
 /// Longest name of a machine, characters.
 const LONGEST_HOST: usize = 255;
+/// Longest sentence about a failing worker, characters.
+const LONGEST_CAUSE: usize = 500;
 
 /// The processes that were in contact.
 #[derive(Debug, Default)]
@@ -30,6 +32,7 @@ pub(crate) struct WorkerRegistry {
 #[derive(Debug)]
 struct Seen {
     offer: Option<WorkerOffer>,
+    failing: Option<String>,
     last_contact: Instant,
     /// The last contact that the store knows.
     noted: Option<Instant>,
@@ -39,21 +42,24 @@ impl WorkerRegistry {
     /// Notes a claim.
     pub(super) fn claims(&self, worker: Uuid, (host, slots): (&str, usize), memory: MemoryBudget) {
         let offer = WorkerOffer {
-            host: host
-                .chars()
-                .filter(|c| !c.is_control())
-                .take(LONGEST_HOST)
-                .collect(),
+            host: shown(host, LONGEST_HOST),
             slots: i64::try_from(slots.min(MAX_SLOTS)).unwrap_or(i64::MAX),
             memory_mb: memory.memory_mb,
             free_memory_mb: memory.free_mb(),
         };
-        self.contact(worker, Some(offer));
+        self.contact(worker, |entry| entry.offer = Some(offer));
     }
 
-    /// Notes a heartbeat.
-    pub(super) fn beats(&self, worker: Uuid) {
-        self.contact(worker, None);
+    /// Notes a heartbeat, with why the worker starts no solves at present.
+    pub(super) fn beats(&self, worker: Uuid, failing: Option<&str>) {
+        let failing = failing.map(|cause| shown(cause, LONGEST_CAUSE));
+        self.contact(worker, |entry| {
+            if entry.failing != failing {
+                // To be noted at once.
+                entry.noted = None;
+                entry.failing = failing;
+            }
+        });
     }
 
     /// Whether a process takes no more jobs.
@@ -106,24 +112,30 @@ impl WorkerRegistry {
         let contact = |(id, entry): (&Uuid, &Seen)| WorkerContact {
             id: *id,
             offer: entry.offer.clone(),
+            failing: entry.failing.clone(),
             ago: entry.last_contact.elapsed(),
         };
         due.map(contact).collect()
     }
 
-    /// Notes a contact now, with what the process offers where it says so.
-    fn contact(&self, worker: Uuid, offer: Option<WorkerOffer>) {
+    /// Notes a contact now, and what it changes.
+    fn contact(&self, worker: Uuid, change: impl FnOnce(&mut Seen)) {
         let (mut seen, now) = (held(&self.seen), Instant::now());
         let entry = seen.entry(worker).or_insert(Seen {
             offer: None,
+            failing: None,
             last_contact: now,
             noted: None,
         });
         entry.last_contact = now;
-        if offer.is_some() {
-            entry.offer = offer;
-        }
+        change(entry);
     }
+}
+
+/// A text of a worker as it may be shown.
+fn shown(text: &str, most: usize) -> String {
+    let shown = text.chars().filter(|c| !c.is_control());
+    shown.take(most).collect()
 }
 
 fn held<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {

@@ -18,6 +18,7 @@ fn metrics_are_exposed_by_name_and_unit() {
         disk_free_bytes: 1 << 30,
         workers_alive: 2,
         remote_slots: 5,
+        workers_failing: 1,
         demand_cpu_s: 90,
         results_to_move: 4,
     };
@@ -44,6 +45,7 @@ fn metrics_are_exposed_by_name_and_unit() {
         "fretwear_workers_alive 2",
         "fretwear_workers_busy 1",
         "fretwear_remote_slots 5",
+        "fretwear_workers_failing 1",
         "fretwear_demand_cpu_seconds 90",
         "fretwear_results_to_move 4",
         "fretwear_oldest_progress_age_seconds 7",

@@ -10,7 +10,7 @@ use crate::service::{expansions, maintenance, objects, workers};
 use crate::store::{Reclaimed, Store};
 use crate::supervision::{Supervisor, TaskName, WORKER};
 use crate::worker;
-use crate::worker::{WorkerConfig, WorkerProcess};
+use crate::worker::{WorkerConfig, WorkerHealth, WorkerProcess};
 
 /// Tasks that are being started.
 pub(super) struct Tasks {
@@ -47,8 +47,12 @@ impl Tasks {
             .spawn(supervisor.run(name, metrics, stopping, start));
     }
 
-    /// Starts the workers of this process.
-    pub(super) fn start_workers(&mut self, count: usize, config: &Arc<WorkerConfig>) {
+    /// Starts the workers of this process; returns their health.
+    pub(super) fn start_workers(
+        &mut self,
+        count: usize,
+        config: &Arc<WorkerConfig>,
+    ) -> Arc<WorkerHealth> {
         let process = WorkerProcess::new(config.memory_mb, false);
         let process = Arc::new(if self.store.is_shared() {
             process.beside_others()
@@ -67,6 +71,7 @@ impl Tasks {
                 }
             });
         }
+        Arc::clone(process.health())
     }
 
     /// Starts what keeps the store in order: lost jobs, deadlines, old jobs, the ownership of a file, contacts with remote workers.

@@ -16,7 +16,11 @@ const WORKERS: usize = 2;
 /// A service whose solving processes fail at once, which a worker must notice.
 async fn service(folder: &TempDir) -> Service {
     let program = folder.path().join("program");
-    std::fs::write(&program, "#!/bin/sh\nexit 3\n").expect("a script");
+    std::fs::write(
+        &program,
+        "#!/bin/sh\necho '{\"event\":\"ready\"}'\nexit 3\n",
+    )
+    .expect("a script");
     std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).expect("a program");
     let config = Config {
         listen: SocketAddr::from(([127, 0, 0, 1], 0)),

@@ -1,5 +1,6 @@
 //! The solving process: started in a process group of its own, given its input, ended with its supervisor.
 
+use std::fmt;
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{ExitStatus, Stdio};
@@ -114,12 +115,23 @@ impl Exit {
         self.stderr.starts_with(FAILED_ALLOCATION)
     }
 
-    /// The standard error as the end of a sentence.
+    /// Its last standard error as the end of a sentence.
     pub(crate) fn details(&self) -> String {
         match self.stderr.as_str() {
             "" => String::new(),
             line => format!(": {line}"),
         }
+    }
+}
+
+impl fmt::Display for Exit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.cause {
+            ExitCause::Code(code) => write!(f, "ended with code {code}")?,
+            ExitCause::Killed => f.write_str("was killed")?,
+            ExitCause::Crashed(signal) => write!(f, "crashed with signal {signal}")?,
+        }
+        f.write_str(&self.details())
     }
 }
 

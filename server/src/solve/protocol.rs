@@ -2,7 +2,7 @@
 //!
 //! Standard input: two lines of JSON, the resolved specification and the checkpoint to resume from (`null` for none).
 //! It stays open as long as the supervisor lives; the process ends when it closes. Standard output: one [`Line`] (JSON)
-//! a line. Files are written into the attempt's folder, and the lines only name them. SIGTERM asks for a checkpoint
+//! a line, the first of them [`Line::Ready`]: a process that ends before it was not started, whatever its job is. Files are written into the attempt's folder, and the lines only name them. SIGTERM asks for a checkpoint
 //! after the current cycle and the end of the process.
 
 use std::io::BufRead;
@@ -26,6 +26,8 @@ pub(crate) const EXIT_FILE_NOT_WRITTEN: i32 = 4;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "event", content = "data", rename_all = "snake_case")]
 pub enum Line {
+    /// The process has started, and reads its input.
+    Ready,
     /// The next phase starts.
     Phase(Phase),
     /// A computed cycle.

@@ -86,7 +86,8 @@ impl EndingJob {
                 .as_ref()
                 .map(serde_json::to_string)
                 .transpose()?,
-            is_released: status == Status::Queued && end.transition == Transition::Release,
+            is_released: status == Status::Queued
+                && matches!(end.transition, Transition::Release | Transition::Decline),
             done: done.as_ref().map(serde_json::to_string).transpose()?,
         }))
     }
@@ -130,9 +131,11 @@ fn reason_and_outcome(
             ),
             Some(Outcome::WorkerLost),
         ),
-        (Transition::Release, Status::Queued) => (format!("{cause}; waiting for a worker"), None),
+        (Transition::Release | Transition::Decline, Status::Queued) => {
+            (format!("{cause}; waiting for a worker"), None)
+        }
         // The cancel request was made before the worker was lost or released the job.
-        (Transition::WorkerLost | Transition::Release, Status::Cancelled) => {
+        (Transition::WorkerLost | Transition::Release | Transition::Decline, Status::Cancelled) => {
             ("cancelled while running".to_owned(), end.outcome)
         }
         _ => return (end.reason.clone(), end.outcome),

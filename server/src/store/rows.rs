@@ -212,6 +212,7 @@ pub(in crate::store) fn remote_worker(
         free_memory_mb: number("free_memory_mb")?,
         last_contact_s: (since / 1_000).try_into().unwrap_or_default(),
         is_draining: row.integer("is_draining")? != 0,
+        failing: row.optional_text("failing")?,
     })
 }
 

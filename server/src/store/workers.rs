@@ -18,6 +18,8 @@ pub struct WorkerContact {
     pub id: Uuid,
     /// What it said of itself at its last claim; `None` if it has made none at this service.
     pub offer: Option<WorkerOffer>,
+    /// Why it starts no solves at present, as it said at its last heartbeat.
+    pub failing: Option<String>,
     /// How long ago.
     pub ago: Duration,
 }

@@ -8,8 +8,9 @@ use tokio::time::MissedTickBehavior;
 use crate::queue::Transition;
 use crate::store::{Claim, End, JobUpdate, Lease, LeaseState, Store};
 use crate::worker::computed::Computed;
-use crate::worker::config::{RETRY_PAUSE, WorkerConfig};
+use crate::worker::config::{RETRY, WorkerConfig};
 use crate::worker::employer::{Employer, EmployerError};
+use crate::worker::health::Round;
 use crate::worker::manifest::{Documents, make_documents};
 
 /// Heartbeats within a lease.
@@ -22,6 +23,7 @@ pub(super) struct Attempt<'a, E> {
     pub(super) config: &'a WorkerConfig,
     /// Threads of its solving process.
     pub(super) threads: usize,
+    pub(super) round: Round<'a>,
 }
 
 impl<E> Clone for Attempt<'_, E> {
@@ -51,6 +53,11 @@ impl<E: Employer> Attempt<'_, E> {
         (end, computed): (&End, Option<Computed>),
     ) -> Result<(), EmployerError> {
         let lease = self.lease();
+        match end.transition {
+            Transition::Decline => (self.round).declined(end.reason.as_deref().unwrap_or_default()),
+            Transition::Release => {}
+            _ => self.round.ended(),
+        }
         let is_final = |error: &EmployerError| {
             let is_full = error.is_disk_full() || error.is_without_objects();
             end.transition == Transition::Cancel && is_full
@@ -160,11 +167,13 @@ async fn retry_unless<T, F: Future<Output = Result<T, EmployerError>>>(
     operation: impl Fn() -> F,
     is_final: impl Fn(&EmployerError) -> bool,
 ) -> Result<T, EmployerError> {
+    let mut failures = 0;
     loop {
         match operation().await {
             Err(error) if error.is_temporary() && !is_final(&error) => {
                 tracing::warn!(%error, "the employer failed; retrying");
-                tokio::time::sleep(RETRY_PAUSE).await;
+                failures += 1;
+                tokio::time::sleep(RETRY.jittered_pause_after(failures)).await;
             }
             answer => return answer,
         }

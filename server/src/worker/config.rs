@@ -5,6 +5,8 @@ use std::time::Duration;
 
 use nix::sys::sysinfo::sysinfo;
 
+use crate::backoff::Backoff;
+
 /// Memory limit of a solving process over its estimate: the estimate controls admission, the limit only protects the
 /// machine from one job.
 const MEMORY_MARGIN: i64 = 4;
@@ -16,8 +18,11 @@ const MEMORY_SHARE_PERCENT: u64 = 80;
 /// Memory in several threads over the estimate, which is that in one, per cent: 154 at most of ten scenes in 2 to 8 threads.
 const MEMORY_OF_THREADS_PERCENT: i64 = 160;
 
-/// Pause before an operation of the store is retried.
-pub(super) const RETRY_PAUSE: Duration = Duration::from_secs(1);
+/// Pauses before an operation of the employer is retried.
+pub(super) const RETRY: Backoff = Backoff {
+    first: Duration::from_secs(1),
+    longest: Duration::from_secs(10),
+};
 
 /// Length of the leases of remote workers: an interruption of the network or a restart of the service is shorter.
 pub const REMOTE_LEASE: Duration = Duration::from_secs(30);

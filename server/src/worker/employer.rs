@@ -16,7 +16,7 @@ use crate::objects::ObjectsError;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, StoreError};
 
-pub use remote::Remote;
+pub use remote::{Remote, RemoteOptions};
 
 /// Why an employer gave no answer.
 #[derive(Debug, thiserror::Error)]

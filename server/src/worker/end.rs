@@ -1,5 +1,7 @@
 //! The end of a job by the end of its solving process.
 
+use std::fmt;
+
 use api::job::Outcome;
 
 use crate::queue::Transition;
@@ -11,7 +13,6 @@ use crate::store::End;
 /// Returns the end of a job. A result, a failure and a crash are final; a job whose process was killed from outside is
 /// tried again; a job whose process was asked to stop returns to the queue.
 pub(super) fn end_by_exit(last: Option<Line>, exit: &Exit) -> End {
-    let details = exit.details();
     match (last, exit.cause) {
         (Some(Line::Summary(summary)), _) => End {
             transition: Transition::Succeed,
@@ -30,20 +31,29 @@ pub(super) fn end_by_exit(last: Option<Line>, exit: &Exit) -> End {
             Transition::WorkerLost,
             "its solving process could not write its files",
         ),
-        (_, ExitCause::Crashed(signal)) => {
+        (_, ExitCause::Crashed(_)) => {
             let outcome = if exit.is_out_of_memory() {
                 Outcome::OutOfMemory
             } else {
                 Outcome::NotConverged
             };
-            let reason = format!("the solving process crashed with signal {signal}{details}");
-            failed(outcome, reason)
+            failed(outcome, format!("the solving process {exit}"))
         }
-        (_, ExitCause::Code(code)) => {
-            let ended = format!("the solving process ended with code {code} and without a result");
-            failed(Outcome::NotConverged, ended + &details)
+        (_, ExitCause::Code(_)) => {
+            let reason = format!("the solving process {exit}, without a result");
+            failed(Outcome::NotConverged, reason)
         }
     }
+}
+
+/// The end of an attempt whose solving process could not be started, or ended before it was ready: no fault of the job.
+pub(super) fn not_started(cause: &impl fmt::Display) -> End {
+    declined(format!("its solving process did not start: {cause}"))
+}
+
+/// The end of an attempt that this worker cannot make at present.
+pub(super) fn declined(cause: impl Into<String>) -> End {
+    End::without_result(Transition::Decline, cause)
 }
 
 /// Status reason of a job whose worker is asked to stop.

@@ -56,6 +56,8 @@ pub struct LeasesBody {
     pub leases: Vec<Lease>,
     /// For how long they are renewed.
     pub length: Duration,
+    /// Why it starts no solves at present.
+    pub failing: Option<String>,
 }
 
 /// Largest number of writes in a request.

@@ -9,7 +9,7 @@ use crate::queue::Transition;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::{ClaimedCheckpoint, End, LeaseState};
 use crate::worker::attempt::{Attempt, retry};
-use crate::worker::config::RETRY_PAUSE;
+use crate::worker::config::RETRY;
 use crate::worker::employer::{Employer, EmployerError};
 use crate::worker::end::{STOPPED, cancelled, deadline_passed};
 use crate::worker::update_buffer::UpdateBuffer;
@@ -54,6 +54,7 @@ async fn stored<'a, E: Employer>(
     (deadline, stopping): (Option<Instant>, &CancellationToken),
 ) -> Result<Start<'a>, EmployerError> {
     let (employer, lease) = (attempt.employer, attempt.lease());
+    let mut failures = 0;
     loop {
         let answer = tokio::select! {
             answer = employer.checkpoint(lease) => answer,
@@ -77,9 +78,10 @@ async fn stored<'a, E: Employer>(
             Ok(LeaseState::Lost) => return Ok(Start::LeaseLost),
             Ok(LeaseState::Held { .. }) | Err(_) => {}
         }
+        failures += 1;
         tokio::select! {
             () = stopping.cancelled() => return Ok(stopped()),
-            () = tokio::time::sleep(RETRY_PAUSE) => {}
+            () = tokio::time::sleep(RETRY.jittered_pause_after(failures)) => {}
         }
     }
     tracing::warn!("its checkpoint is missing or damaged; the run starts at cycle 0");

@@ -15,9 +15,11 @@ use crate::solve::process::{LineError, ReceivedLine, SolveCommand, SolveProcess}
 use crate::spec;
 use crate::store::{ClaimedCheckpoint, End, LeaseState};
 use crate::worker::attempt::{Attempt, retry};
-use crate::worker::config::RETRY_PAUSE;
+use crate::worker::config::RETRY;
 use crate::worker::employer::{Employer, EmployerError};
-use crate::worker::end::{STOPPED, cancelled, deadline_passed, end_by_exit, failed};
+use crate::worker::end::{
+    STOPPED, cancelled, deadline_passed, declined, end_by_exit, failed, not_started,
+};
 use crate::worker::resume::{Start, start_of};
 use crate::worker::update_buffer::UpdateBuffer;
 
@@ -53,6 +55,8 @@ struct Supervision<'a, E> {
     /// When the job fails unless it has ended.
     deadline: Option<Instant>,
     process: SolveProcess,
+    /// Set once the process has said that it is ready.
+    is_ready: bool,
     buffer: UpdateBuffer,
     stopping: &'a CancellationToken,
 }
@@ -82,13 +86,17 @@ async fn run<E: Employer>(
         .map_or(0, ClaimedCheckpoint::cycle);
     tracing::info!(from_cycle, memory_mb = claim.memory_mb, "job claimed");
     let mut buffer = UpdateBuffer::new(cycles, from_cycle);
-    let started = match start_of(attempt, &mut buffer, (deadline, stopping)).await? {
-        Start::From(checkpoint) => start(attempt, checkpoint.as_deref()).map_err(|cause| {
-            let reason = format!("its solving process could not be started: {cause}");
-            End::without_result(Transition::WorkerLost, reason)
-        }),
-        Start::Never(end) => Err(*end),
-        Start::LeaseLost => return Ok(()),
+    let started = if let Some(cause) = attempt.round.end() {
+        Err(declined(cause))
+    } else {
+        match start_of(attempt, &mut buffer, (deadline, stopping)).await? {
+            Start::From(checkpoint) => {
+                let started = start(attempt, checkpoint.as_deref());
+                started.map_err(|cause| not_started(&cause))
+            }
+            Start::Never(end) => Err(*end),
+            Start::LeaseLost => return Ok(()),
+        }
     };
     let process = match started {
         Ok(process) => process,
@@ -102,6 +110,7 @@ async fn run<E: Employer>(
         attempt,
         deadline,
         process,
+        is_ready: false,
         buffer,
         stopping,
     };
@@ -128,6 +137,7 @@ fn start<E: Employer>(
         config,
         employer,
         threads,
+        ..
     } = attempt;
     SolveCommand {
         program: &config.program,
@@ -146,12 +156,17 @@ impl<E: Employer> Supervision<'_, E> {
     async fn read_output(&mut self) -> Result<Stop, EmployerError> {
         let mut tick = tokio::time::interval(self.attempt.config.update_every);
         tick.set_missed_tick_behavior(MissedTickBehavior::Delay);
-        let (mut last, mut store_failed) = (None, false);
+        let (mut last, mut failures) = (None, 0);
         loop {
             // While the store fails, lines stay in the pipe, so that memory stays bounded.
-            let may_read = !(store_failed && self.buffer.is_full());
+            let may_read = failures == 0 || !self.buffer.is_full();
             let write = tokio::select! {
                 received = self.process.next_line(), if may_read => match received {
+                    Ok(Some(ReceivedLine { line: Line::Ready, .. })) => {
+                        self.is_ready = true;
+                        self.attempt.round.started();
+                        continue;
+                    }
                     Ok(Some(ReceivedLine { line: Line::Restarted(cause), .. })) => {
                         Write::Restart(cause)
                     }
@@ -178,7 +193,7 @@ impl<E: Employer> Supervision<'_, E> {
             match self.execute(write).await {
                 Ok(LeaseState::Held {
                     cancel_requested: false,
-                }) => store_failed = false,
+                }) => failures = 0,
                 Ok(LeaseState::Held {
                     cancel_requested: true,
                 }) => return Ok(Stop::Cancelled),
@@ -189,8 +204,8 @@ impl<E: Employer> Supervision<'_, E> {
                     if self.is_cancelled_meanwhile(&error).await {
                         return Ok(Stop::Cancelled);
                     }
-                    store_failed = true;
-                    tick.reset_after(RETRY_PAUSE);
+                    failures += 1;
+                    tick.reset_after(RETRY.jittered_pause_after(failures));
                 }
                 Err(error) => return Err(error),
             }
@@ -249,10 +264,13 @@ impl<E: Employer> Supervision<'_, E> {
     async fn end_process(&mut self, stop: Stop) -> Option<End> {
         let end = match stop {
             Stop::Output(last) => {
-                return Some(end_by_exit(
-                    last.map(|line| *line),
-                    &self.process.wait().await,
-                ));
+                let exit = self.process.wait().await;
+                let last = last.map(|line| *line);
+                return Some(if self.is_ready || exit.is_out_of_memory() {
+                    end_by_exit(last, &exit)
+                } else {
+                    not_started(&exit)
+                });
             }
             Stop::Shutdown => match self.stop_gracefully().await {
                 Some(last) => return Some(end_by_exit(Some(last), &self.process.wait().await)),
@@ -260,7 +278,10 @@ impl<E: Employer> Supervision<'_, E> {
             },
             Stop::Cancelled => Some(cancelled()),
             Stop::DeadlinePassed => Some(deadline_passed()),
-            Stop::Unreadable(error) => Some(failed(Outcome::NotConverged, error.to_string())),
+            Stop::Unreadable(error) if self.is_ready => {
+                Some(failed(Outcome::NotConverged, error.to_string()))
+            }
+            Stop::Unreadable(error) => Some(not_started(&error)),
             Stop::LeaseLost => None,
         };
         self.process.kill().await;

@@ -1,9 +1,11 @@
 //! Workers with faulty solving processes.
 
 mod failing_employer;
+mod failing_starts;
 
+use std::fs::Permissions;
 use std::os::unix::fs::PermissionsExt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -18,13 +20,14 @@ use crate::http::tests::row;
 use crate::solve::Line;
 use crate::spec;
 use crate::store::{JobUpdate, Limits, NewJob, Store, SubmitOptions};
-use crate::worker::{EmployerError, WorkerConfig, WorkerProcess, work};
+use crate::worker::{EmployerError, WorkerConfig, WorkerHealth, WorkerProcess, work};
 
 /// A worker whose solving process is a shell script, with one job and one attempt.
 struct Scripted {
     store: Arc<Store>,
     id: Uuid,
     stopping: CancellationToken,
+    health: Arc<WorkerHealth>,
     worker: JoinHandle<Result<(), EmployerError>>,
     folder: TempDir,
 }
@@ -35,6 +38,20 @@ const LIMITS: Limits = Limits {
     least_free_disk_mb: 0,
 };
 
+/// Name of the program in the folder.
+const PROGRAM: &str = "program";
+/// Command that writes the first line of a solving process.
+const READY: &str = r#"echo '{"event":"ready"}'"#;
+
+/// Writes a script as the program in a folder.
+fn write_program(folder: &Path, script: &str) {
+    // A program that is being written cannot be started.
+    let (written, program) = (folder.join("written"), folder.join(PROGRAM));
+    std::fs::write(&written, format!("#!/bin/sh\n{script}\n")).expect("a script");
+    std::fs::set_permissions(&written, Permissions::from_mode(0o755)).expect("a program");
+    std::fs::rename(written, program).expect("a program");
+}
+
 impl Scripted {
     async fn new(script: &str) -> Self {
         Self::named(script, None).await
@@ -42,10 +59,12 @@ impl Scripted {
 
     async fn named(script: &str, name: Option<String>) -> Self {
         let folder = TempDir::new().expect("a temporary folder");
-        let program = folder.path().join("program");
-        std::fs::write(&program, format!("#!/bin/sh\n{script}\n")).expect("a script");
-        std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755))
-            .expect("a program");
+        write_program(folder.path(), &format!("{READY}\n{script}"));
+        Self::in_folder(folder, name).await
+    }
+
+    /// A worker whose program is, or will be, in the folder.
+    async fn in_folder(folder: TempDir, name: Option<String>) -> Self {
         let url = format!("sqlite://{}", folder.path().join("test.db").display());
         let store = Arc::new(
             Store::open_with(&url, folder.path(), LIMITS)
@@ -63,17 +82,17 @@ impl Scripted {
             options: SubmitOptions::default(),
         };
         let id = store.queue(&job).await;
-        let config = WorkerConfig {
-            ..WorkerConfig::new(program)
-        };
+        let config = WorkerConfig::new(folder.path().join(PROGRAM));
         let stopping = CancellationToken::new();
         let process = Arc::new(WorkerProcess::new(config.memory_mb, false));
+        let health = Arc::clone(process.health());
         let shared = (process, Arc::new(config));
         let worker = tokio::spawn(work(Arc::clone(&store), shared, stopping.clone()));
         Self {
             store,
             id,
             stopping,
+            health,
             worker,
             folder,
         }

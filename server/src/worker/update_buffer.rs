@@ -113,7 +113,8 @@ impl UpdateBuffer {
                 content: NewContent::Folder,
             }),
             Line::Checkpoint(checkpoint) => self.update.checkpoint = Some(checkpoint),
-            Line::Fields(_)
+            Line::Ready
+            | Line::Fields(_)
             | Line::Restarted(_)
             | Line::Summary(_)
             | Line::Failed(_)

@@ -57,11 +57,12 @@ pub(crate) enum Step {
 /// How often a request is made.
 const TIMES: std::ops::Range<usize> = 1..3;
 
-pub(crate) const ENDS: [Transition; 5] = [
+pub(crate) const ENDS: [Transition; 6] = [
     Transition::Succeed,
     Transition::Fail,
     Transition::Cancel,
     Transition::Release,
+    Transition::Decline,
     Transition::WorkerLost,
 ];
 

@@ -14,7 +14,7 @@ use server::store::block::{Block, EncodedBlock};
 use server::store::{
     Claim, ClaimRequest, End, EventName, JobUpdate, Lease, LeaseState, RequestNumber,
 };
-use server::worker::{Employer, EmployerError, Remote};
+use server::worker::{Employer, EmployerError, Remote, RemoteOptions};
 use tokio::task::JoinSet;
 use uuid::Uuid;
 
@@ -236,12 +236,15 @@ pub(super) fn started(
     let bundle = asked("FRETWEAR_WORKERS_BUNDLE", 1);
     let remote = |number: usize| {
         let client = clients[number % clients.len()].clone();
-        let lengths = (harm.lease(), WAIT);
-        Arc::new(Remote::new(
-            (client, Uuid::now_v7(), slots),
-            folder.to_owned(),
-            lengths,
-        ))
+        Arc::new(Remote::new(RemoteOptions {
+            client,
+            worker: Uuid::now_v7(),
+            health: Arc::default(),
+            slots,
+            scratch: folder.to_owned(),
+            lease: harm.lease(),
+            wait: WAIT,
+        }))
     };
     let processes: Vec<_> = (0..count.div_ceil(slots)).map(remote).collect();
     (0..count)

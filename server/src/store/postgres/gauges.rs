@@ -22,9 +22,10 @@ impl PostgresStore {
             sqlx::query_as("SELECT status, count(*), min(created_at) FROM jobs GROUP BY status")
                 .fetch_all(&mut *connection)
                 .await?;
-        let (checkpoint, progress, database_bytes, results_to_move, remote_slots): (
+        let (checkpoint, progress, database_bytes, results_to_move, remote_slots, workers_failing): (
             Option<i64>,
             Option<String>,
+            i64,
             i64,
             i64,
             i64,
@@ -33,7 +34,8 @@ impl PostgresStore {
              (SELECT min(progress::json ->> 'updated_at') FROM jobs WHERE status = 'running'), \
              pg_database_size(current_database()), \
              (SELECT count(*) FROM result_blocks WHERE is_movable AND object IS NULL AND $1), \
-             (SELECT COALESCE(sum(slots), 0)::bigint FROM workers WHERE last_contact_at >= $2 AND NOT is_draining)",
+             (SELECT COALESCE(sum(slots), 0)::bigint FROM workers WHERE last_contact_at >= $2 AND NOT is_draining), \
+             (SELECT count(failing) FROM workers WHERE last_contact_at >= $2)",
         )
         .bind(self.local.objects.is_some())
         .bind(present_from(monotonic_ms))
@@ -50,6 +52,7 @@ impl PostgresStore {
             disk_free_bytes: self.local.disk.free_mb().map_or(0, |mb| integer(mb << 20)),
             workers_alive: 0,
             remote_slots,
+            workers_failing,
             demand_cpu_s: 0,
         })
     }

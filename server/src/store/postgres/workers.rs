@@ -18,21 +18,28 @@ impl PostgresStore {
         // In one order, because several services note the same processes.
         let mut contacts: Vec<_> = contacts.iter().collect();
         contacts.sort_by_key(|contact| contact.id);
-        for WorkerContact { id, offer, ago } in contacts {
+        for WorkerContact {
+            id,
+            offer,
+            failing,
+            ago,
+        } in contacts
+        {
             let at = contact_at(now, *ago);
             let Some(offer) = offer else {
                 sqlx::query(
-                    "UPDATE workers SET last_contact_at = $1 WHERE id = $2 AND last_contact_at < $1",
+                    "UPDATE workers SET last_contact_at = $1, failing = $2 WHERE id = $3 AND last_contact_at < $1",
                 )
                 .bind(at)
+                .bind(failing)
                 .bind(id)
                 .execute(&mut *transaction)
                 .await?;
                 continue;
             };
             sqlx::query(
-                "INSERT INTO workers (id, host, slots, memory_mb, free_memory_mb, last_contact_at) VALUES ($1, $2, $3, $4, $5, $6) \
-                 ON CONFLICT (id) DO UPDATE SET free_memory_mb = excluded.free_memory_mb, \
+                "INSERT INTO workers (id, host, slots, memory_mb, free_memory_mb, failing, last_contact_at) VALUES ($1, $2, $3, $4, $5, $6, $7) \
+                 ON CONFLICT (id) DO UPDATE SET free_memory_mb = excluded.free_memory_mb, failing = excluded.failing, \
                  last_contact_at = excluded.last_contact_at WHERE excluded.last_contact_at > workers.last_contact_at",
             )
             .bind(id)
@@ -40,6 +47,7 @@ impl PostgresStore {
             .bind(offer.slots)
             .bind(offer.memory_mb)
             .bind(offer.free_memory_mb)
+            .bind(failing)
             .bind(at)
             .execute(&mut *transaction)
             .await?;
@@ -58,7 +66,7 @@ impl PostgresStore {
         let mut connection = self.readers.acquire().await?;
         let now = self.now(&mut connection).await?.monotonic_ms;
         let rows = sqlx::query(
-            "SELECT id, host, slots, memory_mb, free_memory_mb, last_contact_at, is_draining::int::bigint AS is_draining, \
+            "SELECT id, host, slots, memory_mb, free_memory_mb, last_contact_at, is_draining::int::bigint AS is_draining, failing, \
              (SELECT count(*) FROM jobs WHERE status = 'running' AND worker = workers.id) AS jobs \
              FROM workers WHERE last_contact_at >= $1 ORDER BY id",
         )

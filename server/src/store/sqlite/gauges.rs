@@ -63,8 +63,8 @@ impl SqliteStore {
         .bind(self.local.objects.is_some())
         .fetch_one(&self.readers)
         .await?;
-        let remote_slots = sqlx::query_scalar(
-            "SELECT COALESCE(sum(slots), 0) FROM workers WHERE last_contact_at >= ? AND NOT is_draining",
+        let (remote_slots, workers_failing) = sqlx::query_as(
+            "SELECT COALESCE(sum(slots) FILTER (WHERE NOT is_draining), 0), count(failing) FROM workers WHERE last_contact_at >= ?",
         )
         .bind(present_from(self.local.clock.now().monotonic_ms))
         .fetch_one(&self.readers)
@@ -80,6 +80,7 @@ impl SqliteStore {
             disk_free_bytes: self.local.disk.free_mb().map_or(0, |mb| integer(mb << 20)),
             workers_alive: 0,
             remote_slots,
+            workers_failing,
             demand_cpu_s: 0,
         })
     }

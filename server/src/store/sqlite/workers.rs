@@ -17,21 +17,28 @@ impl SqliteStore {
     ) -> Result<(), StoreError> {
         let now = self.local.clock.now().monotonic_ms;
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        for WorkerContact { id, offer, ago } in contacts {
+        for WorkerContact {
+            id,
+            offer,
+            failing,
+            ago,
+        } in contacts
+        {
             let at = contact_at(now, *ago);
             let Some(offer) = offer else {
                 sqlx::query(
-                    "UPDATE workers SET last_contact_at = max(last_contact_at, ?) WHERE id = ?",
+                    "UPDATE workers SET last_contact_at = ?1, failing = ?2 WHERE id = ?3 AND last_contact_at < ?1",
                 )
                 .bind(at)
+                .bind(failing)
                 .bind(id.to_string())
                 .execute(&mut *transaction)
                 .await?;
                 continue;
             };
             sqlx::query(
-                "INSERT INTO workers (id, host, slots, memory_mb, free_memory_mb, last_contact_at) VALUES (?, ?, ?, ?, ?, ?) \
-                 ON CONFLICT (id) DO UPDATE SET free_memory_mb = excluded.free_memory_mb, \
+                "INSERT INTO workers (id, host, slots, memory_mb, free_memory_mb, failing, last_contact_at) VALUES (?, ?, ?, ?, ?, ?, ?) \
+                 ON CONFLICT (id) DO UPDATE SET free_memory_mb = excluded.free_memory_mb, failing = excluded.failing, \
                  last_contact_at = excluded.last_contact_at WHERE excluded.last_contact_at > workers.last_contact_at",
             )
             .bind(id.to_string())
@@ -39,6 +46,7 @@ impl SqliteStore {
             .bind(offer.slots)
             .bind(offer.memory_mb)
             .bind(offer.free_memory_mb)
+            .bind(failing)
             .bind(at)
             .execute(&mut *transaction)
             .await?;
@@ -53,7 +61,7 @@ impl SqliteStore {
     pub(in crate::store) async fn workers(&self) -> Result<Vec<RemoteWorker>, StoreError> {
         let now = self.local.clock.now().monotonic_ms;
         let rows = sqlx::query(
-            "SELECT id, host, slots, memory_mb, free_memory_mb, last_contact_at, is_draining, \
+            "SELECT id, host, slots, memory_mb, free_memory_mb, last_contact_at, is_draining, failing, \
              (SELECT count(*) FROM jobs INDEXED BY jobs_by_claim WHERE status = 'running' AND worker = workers.id) AS jobs \
              FROM workers WHERE last_contact_at >= ? ORDER BY id",
         )

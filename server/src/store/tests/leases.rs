@@ -6,7 +6,7 @@ on_both_engines! { Fixture:
     a_worker_that_lost_its_lease_writes_nothing,
     a_job_whose_workers_are_lost_fails_after_its_last_attempt,
     an_attempt_that_left_a_checkpoint_does_not_count,
-    releasing_a_job_costs_no_attempt,
+    giving_a_job_back_costs_no_attempt,
     a_job_with_a_cancel_request_gets_no_further_attempt,
     event_numbers_have_no_gaps,
     every_kind_of_end_is_counted,
@@ -112,14 +112,16 @@ async fn an_attempt_that_left_a_checkpoint_does_not_count(fixture: Fixture) {
     );
 }
 
-async fn releasing_a_job_costs_no_attempt(fixture: Fixture) {
+async fn giving_a_job_back_costs_no_attempt(fixture: Fixture) {
     let id = fixture.queued().await;
-    for _ in 0..2 * ATTEMPT_LIMIT {
-        let claim = fixture.claimed(10).await;
-        let status = fixture
-            .ended(&claim, &JobUpdate::default(), Transition::Release, 2)
-            .await;
-        assert_eq!(status, Some(Status::Queued));
+    for _ in 0..ATTEMPT_LIMIT {
+        for transition in [Transition::Release, Transition::Decline] {
+            let claim = fixture.claimed(10).await;
+            let status = fixture
+                .ended(&claim, &JobUpdate::default(), transition, 2)
+                .await;
+            assert_eq!(status, Some(Status::Queued));
+        }
     }
     let job = fixture.job(id).await;
     assert_eq!((job.status, job.attempts), (Status::Queued, 0));

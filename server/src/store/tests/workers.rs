@@ -17,6 +17,7 @@ fn contact(id: Uuid, free_memory_mb: i64, ago_s: u64) -> WorkerContact {
             memory_mb: 8_000,
             free_memory_mb,
         }),
+        failing: None,
         ago: Duration::from_secs(ago_s),
     }
 }
@@ -42,6 +43,7 @@ async fn the_latest_contact_counts_and_a_silent_worker_is_forgotten(fixture: Fix
     let beat = |id| WorkerContact {
         id,
         offer: None,
+        failing: None,
         ago: Duration::from_secs(1),
     };
     fixture.noted(&[beat(first), beat(Uuid::now_v7())]).await;

@@ -22,10 +22,13 @@ use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::{
     Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, NewFile, Write, WriteKind,
 };
+use crate::worker::health::WorkerHealth;
 use crate::worker::protocol::{ClaimBody, LeasesBody, PROGRAM, RestartBody, Taken, WriteAnswer};
 
 /// Where writes are sent.
 const WRITES: &str = "/v1/worker/writes";
+/// Where leases are renewed.
+const HEARTBEATS: &str = "/v1/worker/leases";
 
 /// Interval of the heartbeat of all jobs of a worker, which also brings cancel requests.
 const HEARTBEAT: Duration = Duration::from_secs(2);
@@ -42,42 +45,48 @@ enum NotSent {
     Unreachable { url: String, cause: String },
 }
 
+/// A process with workers, and the service that they work for.
+#[derive(Debug, Clone)]
+pub struct RemoteOptions {
+    /// Reaches the service.
+    pub client: Client,
+    /// The process.
+    pub worker: Uuid,
+    /// Health of its workers.
+    pub health: Arc<WorkerHealth>,
+    /// Number of jobs that are solved at once.
+    pub slots: usize,
+    /// Folder of the files of attempts until they are sent.
+    pub scratch: PathBuf,
+    /// For how long leases are renewed.
+    pub lease: Duration,
+    /// How long a claim waits for a job.
+    pub wait: Duration,
+}
+
 /// A remote service.
 #[derive(Debug)]
 pub struct Remote {
-    client: Client,
-    /// Folder of the files of attempts until they are sent.
-    scratch: PathBuf,
+    options: RemoteOptions,
     leases: Leases,
     /// Name of this machine.
     host: String,
-    /// Number of jobs that are solved at once.
-    slots: usize,
-    /// How long a claim waits for a job.
-    wait: Duration,
     /// Quick writes that are sent together.
     writes: Groups<Arc<Write>, Result<WriteAnswer, NotSent>>,
     _heartbeat: AbortOnDropHandle<()>,
 }
 
 impl Remote {
-    /// A service that this client reaches, for a worker of this id and number of slots. Files are in a folder until they are sent. Until it
-    /// is dropped, all leases are renewed for a length; claims wait for a job for a while. Needs a tokio runtime.
-    pub fn new(
-        (client, worker, slots): (Client, Uuid, usize),
-        scratch: PathBuf,
-        (length, wait): (Duration, Duration),
-    ) -> Self {
+    /// The service for a process with workers. Until it is dropped, all leases are renewed, and the health of the workers is reported. Needs a
+    /// tokio runtime.
+    pub fn new(options: RemoteOptions) -> Self {
         let leases = Leases::default();
-        let beating = beat((client.clone(), worker), Arc::clone(&leases), length);
+        let beating = beat(options.clone(), Arc::clone(&leases));
         let heartbeat = tokio::spawn(beating);
         Self {
-            client,
-            scratch,
+            options,
             leases,
             host: host(),
-            slots,
-            wait,
             writes: Groups::default(),
             _heartbeat: AbortOnDropHandle::new(heartbeat),
         }
@@ -88,14 +97,14 @@ impl Remote {
         path: &str,
         body: &impl Serialize,
     ) -> Result<T, EmployerError> {
-        Ok(self.client.post(path, body).await?)
+        Ok(self.options.client.post(path, body).await?)
     }
 
     /// Sends a write, together with others that are sent at the same time if it is quick.
     async fn write(&self, write: Write) -> Result<WriteAnswer, EmployerError> {
         let write = Arc::new(write);
         if is_quick(&write) {
-            let send = |group| send_together(self.client.clone(), group);
+            let send = |group| send_together(self.options.client.clone(), group);
             match self.writes.ask(Arc::clone(&write), send).await {
                 Some(Ok(answer)) => return Ok(answer),
                 Some(Err(NotSent::Unreachable { url, cause })) => {
@@ -119,7 +128,7 @@ impl Remote {
         for NewFile { file, content } in update.largest_files_first() {
             let path = format!("/v1/worker/files/{job}/{number}/{}", file.name);
             let sent = self.folder(lease).join(&file.name);
-            let taken: Taken = self.client.put_file(&path, &sent, file).await?;
+            let taken: Taken = self.options.client.put_file(&path, &sent, file).await?;
             *content = taken.content;
         }
         Ok(update)
@@ -137,9 +146,9 @@ impl Employer for Remote {
         let body = ClaimBody {
             program: PROGRAM.to_owned(),
             host: self.host.clone(),
-            slots: self.slots,
+            slots: self.options.slots,
             request: *request,
-            wait: self.wait,
+            wait: self.options.wait,
         };
         let claims: Vec<Claim> = self.post("/v1/worker/claims", &body).await?;
         let fresh = LeaseState::Held {
@@ -168,7 +177,7 @@ impl Employer for Remote {
     async fn checkpoint(&self, lease: Lease) -> Result<Option<EncodedCheckpoint>, EmployerError> {
         let Lease { job, number } = lease;
         let path = format!("/v1/worker/checkpoints/{job}/{number}");
-        Ok(self.client.get_once(&path).await?)
+        Ok(self.options.client.get_once(&path).await?)
     }
 
     async fn record(
@@ -229,7 +238,7 @@ impl Employer for Remote {
 
     fn folder(&self, lease: Lease) -> PathBuf {
         let attempt = format!("{}-{}", lease.job, lease.number);
-        self.scratch.join(attempt)
+        self.options.scratch.join(attempt)
     }
 
     fn busy(&self) -> Option<Busy> {
@@ -237,7 +246,7 @@ impl Employer for Remote {
     }
 
     async fn demand(&self) -> Result<Demand, EmployerError> {
-        Ok(self.client.demand().await?)
+        Ok(self.options.client.demand().await?)
     }
 }
 
@@ -289,32 +298,40 @@ fn unexpected(answer: WriteAnswer) -> EmployerError {
     }
 }
 
-/// Renews all leases in one request, until its task is aborted.
-async fn beat((client, worker): (Client, Uuid), leases: Leases, length: Duration) {
+/// Renews all leases in one request and reports the health of the workers, until its task is aborted.
+async fn beat(options: RemoteOptions, leases: Leases) {
     let mut timer = tokio::time::interval(HEARTBEAT);
     timer.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    let (mut failures, mut was_failing) = (0_u32, false);
     loop {
         timer.tick().await;
         let body = LeasesBody {
-            worker,
+            worker: options.worker,
             leases: held(&leases).keys().copied().collect(),
-            length,
+            length: options.lease,
+            failing: options.health.failing(),
         };
-        if body.leases.is_empty() {
+        let is_failing = body.failing.is_some();
+        if body.leases.is_empty() && !is_failing && !was_failing {
             continue;
         }
-        match client
-            .post::<Vec<LeaseState>>("/v1/worker/leases", &body)
-            .await
-        {
-            Ok(states) => {
-                let mut known = held(&leases);
-                for (lease, state) in body.leases.iter().zip(states) {
-                    // It may have ended meanwhile.
-                    known.entry(*lease).and_modify(|known| *known = state);
+        let answer = options.client.post(HEARTBEATS, &body).await;
+        let states: Vec<LeaseState> = match answer {
+            Ok(states) => states,
+            Err(error) => {
+                failures += 1;
+                // Seldom while the service is away.
+                if failures.is_power_of_two() {
+                    tracing::warn!(%error, failures, "leases could not be renewed");
                 }
+                continue;
             }
-            Err(error) => tracing::warn!(%error, "leases could not be renewed"),
+        };
+        (failures, was_failing) = (0, is_failing);
+        let mut known = held(&leases);
+        for (lease, state) in body.leases.iter().zip(states) {
+            // It may have ended meanwhile.
+            known.entry(*lease).and_modify(|known| *known = state);
         }
     }
 }

@@ -102,11 +102,15 @@ async fn remote(service: &Service) -> (Remote, TempDir, impl Drop) {
     ));
     let client = Client::new(&format!("http://{address}"), None, None).expect("a client");
     let scratch = TempDir::new().expect("a folder");
-    let remote = Remote::new(
-        (client, Uuid::now_v7(), 1),
-        scratch.path().to_owned(),
-        (LENGTH, LENGTH),
-    );
+    let remote = Remote::new(RemoteOptions {
+        client,
+        worker: Uuid::now_v7(),
+        health: Arc::default(),
+        slots: 1,
+        scratch: scratch.path().to_owned(),
+        lease: LENGTH,
+        wait: LENGTH,
+    });
     (remote, scratch, stopping.drop_guard())
 }
 

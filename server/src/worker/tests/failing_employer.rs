@@ -1,6 +1,7 @@
 //! Workers whose employer fails, or has no job.
 
 use std::sync::Mutex;
+use std::time::Instant;
 
 use api::service::Demand;
 
@@ -13,17 +14,30 @@ use crate::store::tests::request;
 use crate::store::{Claim, ClaimRequest, End, Lease, LeaseState, StoreError};
 use crate::worker::Employer;
 use crate::worker::attempt::Attempt;
+use crate::worker::config::RETRY;
 
 /// An employer that gives two jobs and then fails for good, or none and waits.
 #[derive(Debug, Default)]
 struct Failing {
     folder: PathBuf,
     waits: bool,
-    /// Whether it can be reached, but takes no files: they are damaged.
-    takes_no_files: bool,
+    /// Whether no claim has an answer.
+    is_away: bool,
+    writes: Writes,
     finished: Mutex<Vec<Transition>>,
+    asked_at: Mutex<Vec<Instant>>,
     asked: Mutex<Vec<(i64, usize)>>,
     abandoned: Mutex<Vec<Lease>>,
+}
+
+/// What becomes of writes.
+#[derive(Debug, Default, PartialEq, Eq)]
+enum Writes {
+    #[default]
+    Fail,
+    /// No files are taken: they are damaged.
+    WithoutFiles,
+    Succeed,
 }
 
 fn failed() -> EmployerError {
@@ -34,6 +48,10 @@ impl Employer for Failing {
     async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, EmployerError> {
         let asked = (request.request.number, request.capacity.slots);
         self.asked.lock().expect("no panic").push(asked);
+        self.asked_at.lock().expect("no panic").push(Instant::now());
+        if self.is_away {
+            return Err(StoreError::Unwritten.into());
+        }
         if self.waits && request.capacity.slots > 0 {
             return std::future::pending().await;
         }
@@ -72,7 +90,12 @@ impl Employer for Failing {
         _update: &JobUpdate,
         _length: Duration,
     ) -> Result<LeaseState, EmployerError> {
-        if self.takes_no_files {
+        if self.writes == Writes::Succeed {
+            return Ok(LeaseState::Held {
+                cancel_requested: false,
+            });
+        }
+        if self.writes == Writes::WithoutFiles {
             let (what, how) = ("a.vtu".to_owned(), "it is shorter".to_owned());
             let damaged = ObjectsError::Damaged { what, how };
             return Err(StoreError::from(damaged).into());
@@ -90,7 +113,7 @@ impl Employer for Failing {
         _update: &JobUpdate,
         end: &End,
     ) -> Result<Option<Status>, EmployerError> {
-        if self.takes_no_files {
+        if self.writes != Writes::Fail {
             let mut finished = self.finished.lock().expect("no panic");
             finished.push(end.transition);
             return Ok(Some(Status::Cancelled));
@@ -119,16 +142,18 @@ impl Employer for Failing {
 #[tokio::test]
 async fn a_job_whose_last_update_is_refused_does_not_succeed() {
     let employer = Failing {
-        takes_no_files: true,
+        writes: Writes::WithoutFiles,
         ..Failing::default()
     };
     let claims = employer.claim(&request(i64::MAX, Duration::ZERO)).await;
     let claim = claims.expect("jobs").pop().expect("a job");
+    let health = WorkerHealth::default();
     let attempt = Attempt {
         employer: &employer,
         claim: &claim,
         config: &WorkerConfig::new(PathBuf::from("/nowhere")),
         threads: 1,
+        round: health.round(),
     };
     for transition in [Transition::Succeed, Transition::Cancel] {
         let end = End::without_result(transition, "the end");
@@ -152,6 +177,53 @@ async fn claims_of_a_worker_that_fails_are_abandoned() {
     let abandoned = employer.abandoned.lock().expect("no panic").clone();
     let jobs: Vec<u128> = abandoned.iter().map(|lease| lease.job.as_u128()).collect();
     assert_eq!(jobs, [1, 2]);
+}
+
+#[tokio::test]
+async fn short_jobs_that_were_claimed_together_go_back_together() {
+    let employer = Failing {
+        writes: Writes::Succeed,
+        ..Failing::default()
+    };
+    let config = WorkerConfig::new(PathBuf::from("/nowhere"));
+    let process = WorkerProcess::new(1_000, true);
+    let stopping = CancellationToken::new();
+    let next = crate::worker::next(&employer, (&process, &config), &stopping);
+    assert!(Box::pin(next).await.expect("an answer"));
+    let finished = employer.finished.lock().expect("no panic").clone();
+    assert_eq!(finished, [Transition::Decline; 2]);
+    // A second declined round would end it.
+    let mut second = Box::pin(process.health().declined_in_a_row(2));
+    assert!(futures_util::poll!(&mut second).is_pending());
+}
+
+#[tokio::test]
+async fn workers_of_a_process_pause_together_while_the_employer_is_away() {
+    let employer = Arc::new(Failing {
+        is_away: true,
+        ..Failing::default()
+    });
+    let process = Arc::new(WorkerProcess::new(1_000, true));
+    let config = Arc::new(WorkerConfig::new(PathBuf::from("/nowhere")));
+    let stopping = CancellationToken::new();
+    let start = |_| {
+        let shared = (Arc::clone(&process), Arc::clone(&config));
+        tokio::spawn(work(Arc::clone(&employer), shared, stopping.clone()))
+    };
+    let workers: Vec<_> = (0..8).map(start).collect();
+    while employer.asked.lock().expect("no panic").len() < 3 {
+        tokio::time::sleep(Duration::from_millis(10)).await;
+    }
+    stopping.cancel();
+    for worker in workers {
+        worker.await.expect("no panic").expect("accepted");
+    }
+    // The same request, after half of the first and of the second pause at least.
+    let asked = employer.asked.lock().expect("no panic").clone();
+    assert!(asked.iter().all(|asked| *asked == (1, 1)), "{asked:?}");
+    let at = employer.asked_at.lock().expect("no panic").clone();
+    assert!(at[1] - at[0] >= RETRY.first / 2, "{at:?}");
+    assert!(at[2] - at[1] >= RETRY.first, "{at:?}");
 }
 
 #[tokio::test]

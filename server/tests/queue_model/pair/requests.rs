@@ -167,7 +167,10 @@ impl Pair {
         }
         let job = &mut self.jobs[index];
         let moved = held && job.apply(transition);
-        if moved && transition == Transition::Release && job.status == Status::Queued {
+        if moved
+            && matches!(transition, Transition::Release | Transition::Decline)
+            && job.status == Status::Queued
+        {
             job.attempts -= 1;
             job.fruitless = job.fruitless.saturating_sub(1);
         }

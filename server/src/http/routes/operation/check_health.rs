@@ -15,7 +15,7 @@ pub(crate) async fn healthz() -> Json<Value> {
     Json(json!({ "status": "ok" }))
 }
 
-/// Readiness check: the tasks of the service run, the data disk has space for more jobs, and the database accepts a write.
+/// Readiness check: the tasks of the service run, its workers start solving processes, the data disk has space for more jobs, and the database accepts a write.
 #[utoipa::path(
     get,
     path = "/readyz",
@@ -42,6 +42,9 @@ pub(crate) async fn readyz(State(app): State<App>) -> Result<Json<Value>, Proble
     if !failing.is_empty() {
         let detail = format!("tasks: restarted repeatedly: {}", failing.join(", "));
         parts.push((ProblemType::TASK_FAILING, detail));
+    }
+    if let Some(cause) = app.health.failing() {
+        parts.push((ProblemType::WORKERS_FAILING, format!("workers: {cause}")));
     }
     if let Some(shortage) = shortage {
         parts.push((ProblemType::DISK_FULL, format!("disk: {shortage}")));
@@ -70,6 +73,26 @@ mod tests {
         assert_eq!(service.get("/healthz").await.2["status"], "ok");
         let (_, _, ready) = service.get("/readyz").await;
         assert_eq!(ready, json!({"status": "ready", "service": "fretwear"}));
+    }
+
+    #[tokio::test]
+    async fn a_service_whose_workers_start_no_solves_is_not_ready_and_says_why() {
+        let service = Service::new().await;
+        let health = &service.app.health;
+        health.decline("too many open files");
+        let (status, _, problem) = service.get("/readyz").await;
+        assert_eq!(
+            (status.as_u16(), &problem["type"], &problem["detail"]),
+            (
+                503,
+                &json!("/problems/workers-failing"),
+                &json!("workers: too many open files")
+            )
+        );
+        let (_, _, text) = service.text("GET", "/metrics", &[], "").await;
+        assert!(text.contains("fretwear_workers_failing 1\n"), "{text}");
+        health.start();
+        assert_eq!(service.get("/readyz").await.0, 200);
     }
 
     #[tokio::test]

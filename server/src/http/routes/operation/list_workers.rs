@@ -47,7 +47,9 @@ mod tests {
         let claim = json!({"program": PROGRAM, "host": "n1", "slots": 2, "request": asked, "wait": Duration::ZERO});
         let (_, _, claims) = service.post("/v1/worker/claims", &claim.to_string()).await;
         let lease = json!({"job": claims[0]["id"], "number": claims[0]["lease"]});
-        let beat = json!({"worker": asked.request.worker, "leases": [lease], "length": Duration::from_secs(9)});
+        let beat = json!({
+            "worker": asked.request.worker, "leases": [lease], "length": Duration::from_secs(9), "failing": "no space"
+        });
         let (_, _, states) = service.post("/v1/worker/leases", &beat.to_string()).await;
         assert_eq!(states, json!([{"held": {"cancel_requested": false}}]));
         let (status, _, list) = service.get("/v1/workers").await;
@@ -58,6 +60,9 @@ mod tests {
             (&found["host"], &found["slots"], &found["jobs"]),
             (&json!("n1"), &json!(2), &json!(1))
         );
+        assert_eq!(found["failing"], "no space");
+        let (_, _, text) = service.text("GET", "/metrics", &[], "").await;
+        assert!(text.contains("fretwear_workers_failing 1\n"), "{text}");
         let (_, _, service) = service.get("/v1/service").await;
         assert_eq!(service["workers"], json!({"total": 2, "busy": 1}));
         assert_eq!(

@@ -27,6 +27,7 @@ pub(crate) async fn metrics(State(app): State<App>) -> Result<Response, ProblemR
     let running = app.supervisor.running();
     let workers = running.iter().filter(|(kind, _)| *kind == WORKER).count();
     gauges.workers_alive = i64::try_from(workers).unwrap_or(i64::MAX);
+    gauges.workers_failing += i64::from(app.health.failing().is_some());
     // Only here: it is a sum over all waiting jobs, and other gauges are polled.
     gauges.demand_cpu_s = i64::try_from(app.store.demand().await?.queued_cpu_s).unwrap_or(i64::MAX);
     let text = app.store.metrics().text(&gauges)?;

@@ -14,7 +14,7 @@ pub(crate) async fn renew(
     State(app): State<App>,
     WorkerBody(body): WorkerBody<LeasesBody>,
 ) -> Result<Json<Vec<LeaseState>>, ProblemResponse> {
-    app.workers.beats(body.worker);
+    app.workers.beats(body.worker, body.failing.as_deref());
     Ok(Json(
         app.store
             .heartbeat(&body.leases, lease_length(body.length))
