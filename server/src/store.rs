@@ -52,6 +52,7 @@ mod batch_counts;
 mod batch_rows;
 mod batches;
 pub mod block;
+mod candidates;
 mod changes;
 mod checkpoints;
 mod circuit_breaker;

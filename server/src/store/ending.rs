@@ -24,6 +24,8 @@ pub(in crate::store) struct Ending {
     pub(in crate::store) summary: Option<String>,
     /// Whether its worker gives it back, which costs no attempt.
     pub(in crate::store) is_released: bool,
+    /// Whether its next attempt is left to another worker, if there is one.
+    pub(in crate::store) is_left: bool,
     /// The document of the event `done`, for a job that ends.
     pub(in crate::store) done: Option<String>,
 }
@@ -88,6 +90,8 @@ impl EndingJob {
                 .transpose()?,
             is_released: status == Status::Queued
                 && matches!(end.transition, Transition::Release | Transition::Decline),
+            is_left: status == Status::Queued
+                && matches!(end.transition, Transition::WorkerLost | Transition::Decline),
             done: done.as_ref().map(serde_json::to_string).transpose()?,
         }))
     }

@@ -128,6 +128,15 @@ impl Local {
         }
     }
 
+    /// Notifies subscribers and workers of a job that its worker has ended, or that waits again.
+    pub(in crate::store) fn ended_by_worker(&self, id: Uuid, status: Option<Status>) {
+        self.concluded(id, status);
+        if status == Some(Status::Queued) {
+            // The first worker that is woken may have to leave it to another one.
+            self.many_wait();
+        }
+    }
+
     /// Notifies subscribers and workers of a committed transition, and counts ended jobs.
     pub(in crate::store) fn concluded(&self, id: Uuid, status: Option<Status>) {
         self.changed(id);

@@ -15,6 +15,8 @@ use crate::store::{Claim, ClaimedCheckpoint, StoreError};
 pub(in crate::store) trait StoredRow {
     /// An id.
     fn id(&self, column: &str) -> Result<Uuid, StoreError>;
+    /// An id that may be absent.
+    fn optional_id(&self, column: &str) -> Result<Option<Uuid>, StoreError>;
     /// A text that may be absent.
     fn optional_text(&self, column: &str) -> Result<Option<String>, StoreError>;
     /// A text.
@@ -35,6 +37,14 @@ macro_rules! stored_row {
         impl $crate::store::rows::StoredRow for $row {
             fn id(&self, column: &str) -> Result<uuid::Uuid, $crate::store::StoreError> {
                 Ok(sqlx::Row::try_get::<$id, _>(self, column)?.into())
+            }
+
+            fn optional_id(
+                &self,
+                column: &str,
+            ) -> Result<Option<uuid::Uuid>, $crate::store::StoreError> {
+                let id = sqlx::Row::try_get::<Option<$id>, _>(self, column)?;
+                Ok(id.map(Into::into))
             }
 
             fn optional_text(

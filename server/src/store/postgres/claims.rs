@@ -9,10 +9,12 @@ use uuid::Uuid;
 
 use crate::clock::Now;
 use crate::groups::Pending;
-use crate::queue::{WaitingJob, admit};
+use crate::queue::admit;
+use crate::store::candidates::Candidate;
 use crate::store::postgres::claimed::Claimed;
 use crate::store::postgres::{LONGEST_TURN, PostgresStore, begin, checkpoints, time_of};
 use crate::store::rows::{StoredRow, attempt_event, claim, integer};
+use crate::store::workers::present_from;
 use crate::store::{Claim, ClaimRequest, ClaimedCheckpoint, StoreError};
 
 /// Number of waiting jobs among which those that fit are searched, beside one for each slot.
@@ -24,7 +26,7 @@ const TURN: i64 = 0x6672_7463;
 pub(in crate::store) const LET_SORT: &str = "SELECT set_config('enable_bitmapscan', $1, true), \
     set_config('enable_seqscan', $1, true), set_config('enable_sort', $1, true)";
 /// The first queued jobs. They are not locked: most are not claimed.
-pub(in crate::store) const FIRST_QUEUED: &str = "SELECT id, memory_mb, queued_at, cpu_ms FROM jobs WHERE status = 'queued' \
+pub(in crate::store) const FIRST_QUEUED: &str = "SELECT id, memory_mb, queued_at, cpu_ms, avoided_worker, avoided_until FROM jobs WHERE status = 'queued' \
     ORDER BY place, id LIMIT $1";
 
 type Waiting = Pending<ClaimRequest, Result<Claimed, StoreError>>;
@@ -109,15 +111,20 @@ async fn claim_for(
         .map(|index| requests[*index].capacity.slots)
         .sum();
     let mut waiting = candidates(&mut transaction, CANDIDATES.saturating_add(slots)).await?;
+    let there = if waiting.iter().any(|one| one.avoided(now).is_some()) {
+        able_workers(&mut transaction, now).await?
+    } else {
+        Vec::new()
+    };
     let (mut admitted, mut reasons) = (Vec::new(), HashMap::new());
     for index in fresh {
-        for id in admit_for(&requests[index], &mut waiting, &mut reasons, now) {
+        for id in admit_for(&requests[index], (&mut waiting, &there), &mut reasons, now) {
             admitted.push((id, index));
         }
     }
     let reasons: Vec<_> = waiting
         .iter()
-        .filter_map(|(id, _)| Some((*id, reasons.remove(id)?)))
+        .filter_map(|one| Some((one.id, reasons.remove(&one.id)?)))
         .collect();
     let reasoned = set_reasons(&mut transaction, reasons).await?;
     for (index, claim) in claim_admitted(&mut transaction, &requests, &admitted, now).await? {
@@ -138,49 +145,51 @@ async fn turn(connection: &mut PgConnection) -> Result<Now, StoreError> {
     time_of(connection).await
 }
 
-/// The first queued jobs: their ids, and what their admission depends on.
+/// The first queued jobs.
 async fn candidates(
     connection: &mut PgConnection,
     limit: usize,
-) -> Result<Vec<(Uuid, WaitingJob)>, StoreError> {
+) -> Result<Vec<Candidate>, StoreError> {
     let let_sort = |is_let: &'static str| sqlx::query(LET_SORT).bind(is_let);
     let_sort("off").execute(&mut *connection).await?;
-    let rows: Vec<(Uuid, i64, i64, i64)> = sqlx::query_as(FIRST_QUEUED)
+    let rows = sqlx::query(FIRST_QUEUED)
         .bind(integer(limit))
         .fetch_all(&mut *connection)
         .await?;
     let_sort("on").execute(connection).await?;
-    let candidate = |(id, memory_mb, since, cpu_ms)| {
-        let job = WaitingJob {
-            memory_mb,
-            since,
-            cpu_ms,
-        };
-        (id, job)
-    };
-    Ok(rows.into_iter().map(candidate).collect())
+    rows.iter().map(Candidate::read).collect()
 }
 
-/// Takes the jobs out of those that wait which a worker can take, and notes why it does not take others.
+/// Remote workers that are there and start solves.
+async fn able_workers(connection: &mut PgConnection, now: Now) -> Result<Vec<Uuid>, StoreError> {
+    let ids = sqlx::query_scalar(
+        "SELECT id FROM workers WHERE last_contact_at >= $1 AND NOT is_draining AND failing IS NULL",
+    )
+    .bind(present_from(now.monotonic_ms));
+    Ok(ids.fetch_all(connection).await?)
+}
+
+/// Takes the jobs out of those that wait which a worker can take, and which are not left to others that are there; notes why it does not
+/// take others.
 fn admit_for(
     request: &ClaimRequest,
-    waiting: &mut Vec<(Uuid, WaitingJob)>,
+    (waiting, there): (&mut Vec<Candidate>, &[Uuid]),
     reasons: &mut HashMap<Uuid, String>,
     now: Now,
 ) -> Vec<Uuid> {
-    let jobs: Vec<_> = waiting.iter().map(|(_, job)| *job).collect();
+    let worker = request.request.worker;
+    let (ids, jobs): (Vec<_>, Vec<_>) = waiting
+        .iter()
+        .filter(|one| !one.is_left(worker, there, now))
+        .map(|one| (one.id, one.job))
+        .unzip();
     let admission = admit(&jobs, &request.capacity, now.monotonic_ms);
     let memory = &request.capacity.memory;
     for index in admission.too_large {
-        let (id, job) = &waiting[index];
-        reasons.insert(*id, memory.reason_to_wait(job));
+        reasons.insert(ids[index], memory.reason_to_wait(&jobs[index]));
     }
-    let admitted: Vec<_> = admission
-        .admitted
-        .iter()
-        .map(|index| waiting[*index].0)
-        .collect();
-    waiting.retain(|(id, _)| !admitted.contains(id));
+    let admitted: Vec<_> = admission.admitted.iter().map(|index| ids[*index]).collect();
+    waiting.retain(|one| !admitted.contains(&one.id));
     admitted
 }
 

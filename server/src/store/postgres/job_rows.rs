@@ -36,7 +36,7 @@ pub(super) async fn cancel(
         Some(Status::Queued) => {
             let end = End::without_result(Transition::Cancel, "cancelled while waiting");
             let job = EndingJob::queued(id, true);
-            end_job(connection, &job, &end, now.system_ms).await?;
+            end_job(connection, &job, &end, now).await?;
             Some(Cancelled::AtOnce)
         }
         Some(Status::Running) => {

@@ -172,7 +172,7 @@ impl PostgresStore {
             return Ok(None);
         };
         if !written.is_repeated {
-            self.local.concluded(lease.job, status);
+            self.local.ended_by_worker(lease.job, status);
         }
         Ok(status)
     }

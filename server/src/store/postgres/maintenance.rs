@@ -29,7 +29,7 @@ impl PostgresStore {
         };
         for id in &late {
             let job = EndingJob::queued(*id, false);
-            end_job(&mut transaction, &job, &end, now.system_ms).await?;
+            end_job(&mut transaction, &job, &end, now).await?;
         }
         transaction.commit().await?;
         for id in &late {

@@ -59,13 +59,13 @@ impl PostgresStore {
                 .await?;
                 ending.push(rows::claim(id, &row, now, None)?);
             } else {
-                let status = end_job(&mut transaction, &job, &end, 0).await?;
+                let status = end_job(&mut transaction, &job, &end, now).await?;
                 queued.push((id, status));
             }
         }
         transaction.commit().await?;
         for (id, status) in &queued {
-            self.local.concluded(*id, *status);
+            self.local.ended_by_worker(*id, *status);
         }
         for _ in 0..queued.len() + ending.len() {
             self.local.metrics.reclaimed.inc();

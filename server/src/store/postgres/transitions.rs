@@ -6,6 +6,8 @@ use api::job::Status;
 use sqlx::postgres::PgConnection;
 use uuid::Uuid;
 
+use crate::clock::Now;
+use crate::store::candidates::left_until;
 use crate::store::ending::{Ending, EndingJob};
 use crate::store::postgres::queries::{NewEvent, insert_events};
 use crate::store::{End, JobUpdate, StoreError};
@@ -58,7 +60,7 @@ pub(super) async fn end_job(
     connection: &mut PgConnection,
     job: &EndingJob,
     end: &End,
-    now: i64,
+    now: Now,
 ) -> Result<Option<Status>, StoreError> {
     let end = JobEnd::of(job, end)?;
     end_jobs(connection, end.as_slice(), now).await?;
@@ -69,7 +71,7 @@ pub(super) async fn end_job(
 pub(super) async fn end_jobs(
     connection: &mut PgConnection,
     ends: &[JobEnd],
-    now: i64,
+    now: Now,
 ) -> Result<(), StoreError> {
     if ends.is_empty() {
         return Ok(());
@@ -100,7 +102,7 @@ pub(super) async fn end_jobs(
 async fn update_jobs(
     connection: &mut PgConnection,
     ends: &[JobEnd],
-    now: i64,
+    now: Now,
 ) -> Result<HashMap<Uuid, i64>, StoreError> {
     fn each<'a, T>(ends: &'a [JobEnd], value: impl Fn(&'a JobEnd) -> T) -> Vec<T> {
         ends.iter().map(value).collect()
@@ -111,10 +113,11 @@ async fn update_jobs(
          cancel_requested = requested, lease_expires_at = NULL, finished_at = given.finished_at, \
          progress = COALESCE(given.progress, jobs.progress), last_write = COALESCE(number, last_write), \
          attempts = attempts - released::int, fruitless = GREATEST(fruitless - released::int, 0), \
-         last_event = last_event + ended::int, version = version + 1 \
+         last_event = last_event + ended::int, version = version + 1, \
+         avoided_worker = CASE WHEN is_left THEN worker END, avoided_until = CASE WHEN is_left THEN $14 END \
          FROM unnest($1::uuid[], $2::text[], $3::text[], $4::text[], $5::text[], $6::text[], $7::boolean[], $8::bigint[], $9::text[], \
-         $10::bigint[], $11::boolean[], $12::boolean[]) \
-         AS given (id, before, status, reason, outcome, summary, requested, finished_at, progress, number, released, ended) \
+         $10::bigint[], $11::boolean[], $12::boolean[], $13::boolean[]) \
+         AS given (id, before, status, reason, outcome, summary, requested, finished_at, progress, number, released, ended, is_left) \
          WHERE jobs.id = given.id AND jobs.status = before RETURNING jobs.id, last_event",
     )
     .bind(each(ends, |end| end.job))
@@ -124,11 +127,13 @@ async fn update_jobs(
     .bind(each(ends, |end| end.ending.outcome))
     .bind(each(ends, |end| end.ending.summary.as_deref()))
     .bind(each(ends, |end| end.cancel_requested))
-    .bind(each(ends, |end| is_terminal(end).then_some(now)))
+    .bind(each(ends, |end| is_terminal(end).then_some(now.system_ms)))
     .bind(each(ends, |end| end.last.as_ref().map(|(_, progress)| progress.as_str())))
     .bind(each(ends, |end| end.last.as_ref().map(|(number, _)| *number)))
     .bind(each(ends, |end| end.ending.is_released))
     .bind(each(ends, is_terminal))
+    .bind(each(ends, |end| end.ending.is_left))
+    .bind(left_until(now))
     .fetch_all(connection)
     .await?;
     if updated.len() != ends.len() {

@@ -124,7 +124,7 @@ impl Writer {
             });
         }
         renew(connection, &renewals).await?;
-        end_jobs(connection, &ends, now.system_ms).await?;
+        end_jobs(connection, &ends, now).await?;
         insert_blocks(connection, &blocks).await?;
         Ok(effects)
     }

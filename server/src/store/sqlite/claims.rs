@@ -5,11 +5,13 @@ use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
 use crate::clock::Now;
-use crate::queue::{WaitingJob, admit};
+use crate::queue::admit;
+use crate::store::candidates::Candidate;
 use crate::store::rows;
-use crate::store::rows::StoredRow;
+use crate::store::rows::{StoredRow, integer};
 use crate::store::sqlite::queries::{BEGIN, insert_attempt_event};
 use crate::store::sqlite::{SqliteStore, checkpoints};
+use crate::store::workers::present_from;
 use crate::store::{Claim, ClaimRequest, ClaimedCheckpoint, StoreError};
 
 /// Number of waiting jobs among which those that fit are searched, beside one for each slot.
@@ -32,23 +34,28 @@ impl SqliteStore {
             return Ok(known);
         }
         let limit = CANDIDATES.saturating_add(request.capacity.slots);
-        let (ids, waiting) = candidates(&mut transaction, limit).await?;
-        if waiting.is_empty() {
+        let mut candidates = candidates(&mut transaction, limit).await?;
+        if candidates.iter().any(|one| one.avoided(now).is_some()) {
+            let there = able_workers(&mut transaction, now).await?;
+            candidates.retain(|one| !one.is_left(request.request.worker, &there, now));
+        }
+        if candidates.is_empty() {
             return Ok(Vec::new());
         }
+        let waiting: Vec<_> = candidates.iter().map(|one| one.job).collect();
         let admission = admit(&waiting, &request.capacity, now.monotonic_ms);
         let memory = &request.capacity.memory;
         let mut changed = Vec::new();
         for index in admission.too_large {
-            let reason = memory.reason_to_wait(&waiting[index]);
-            if set_reason(&mut transaction, ids[index], &reason).await? {
-                changed.push(ids[index]);
+            let Candidate { id, job, .. } = &candidates[index];
+            if set_reason(&mut transaction, *id, &memory.reason_to_wait(job)).await? {
+                changed.push(*id);
             }
         }
         let mut claims = Vec::with_capacity(admission.admitted.len());
         for index in admission.admitted {
             let times = (now, expires_at);
-            claims.push(claim(&mut transaction, ids[index], request, times).await?);
+            claims.push(claim(&mut transaction, candidates[index].id, request, times).await?);
         }
         transaction.commit().await?;
         changed.extend(claims.iter().map(|claim| claim.id));
@@ -59,27 +66,33 @@ impl SqliteStore {
     }
 }
 
-/// The first queued jobs: their ids, and what their admission depends on.
+/// The first queued jobs.
 async fn candidates(
     transaction: &mut Transaction<'_, Sqlite>,
     limit: usize,
-) -> Result<(Vec<Uuid>, Vec<WaitingJob>), StoreError> {
-    let rows: Vec<(Hyphenated, i64, i64, i64)> = sqlx::query_as(
-        "SELECT id, memory_mb, queued_at, cpu_ms FROM jobs INDEXED BY jobs_waiting \
+) -> Result<Vec<Candidate>, StoreError> {
+    let rows = sqlx::query(
+        "SELECT id, memory_mb, queued_at, cpu_ms, avoided_worker, avoided_until FROM jobs INDEXED BY jobs_waiting \
          WHERE status = 'queued' ORDER BY place, id LIMIT ?",
     )
-    .bind(i64::try_from(limit).unwrap_or(i64::MAX))
+    .bind(integer(limit))
     .fetch_all(&mut **transaction)
     .await?;
-    let candidate = |(id, memory_mb, since, cpu_ms)| {
-        let job = WaitingJob {
-            memory_mb,
-            since,
-            cpu_ms,
-        };
-        (Uuid::from(id), job)
-    };
-    Ok(rows.into_iter().map(candidate).unzip())
+    rows.iter().map(Candidate::read).collect()
+}
+
+/// Remote workers that are there and start solves.
+async fn able_workers(
+    transaction: &mut Transaction<'_, Sqlite>,
+    now: Now,
+) -> Result<Vec<Uuid>, StoreError> {
+    let ids: Vec<Hyphenated> = sqlx::query_scalar(
+        "SELECT id FROM workers WHERE last_contact_at >= ? AND NOT is_draining AND failing IS NULL",
+    )
+    .bind(present_from(now.monotonic_ms))
+    .fetch_all(&mut **transaction)
+    .await?;
+    Ok(ids.into_iter().map(Uuid::from).collect())
 }
 
 /// Sets the status reason of a job; whether it had another one.

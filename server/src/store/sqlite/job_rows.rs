@@ -35,14 +35,8 @@ pub(super) async fn cancel(
     Ok(match status_of(connection, id).await? {
         Some(Status::Queued) => {
             let end = End::without_result(Transition::Cancel, "cancelled while waiting");
-            end_job(
-                connection,
-                &EndingJob::queued(id, true),
-                &end,
-                None,
-                now.system_ms,
-            )
-            .await?;
+            let job = EndingJob::queued(id, true);
+            end_job(connection, &job, &end, None, now).await?;
             Some(Cancelled::AtOnce)
         }
         Some(Status::Running) => {

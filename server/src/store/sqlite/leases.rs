@@ -208,14 +208,14 @@ impl SqliteStore {
             cancel_requested,
         );
         let progress = serde_json::to_string(&update.progress)?;
-        let now = self.local.clock.now().system_ms;
+        let now = self.local.clock.now();
         let status = end_job(&mut transaction, &job, end, Some(&progress), now).await?;
         if let Some(block) = &update.block {
             let succeeded = status == Some(Status::Succeeded);
             insert_block(&mut transaction, lease.job, block, succeeded).await?;
         }
         transaction.commit().await?;
-        self.local.concluded(lease.job, status);
+        self.local.ended_by_worker(lease.job, status);
         Ok(status)
     }
 

@@ -28,7 +28,7 @@ impl SqliteStore {
         };
         for id in &late {
             let job = EndingJob::queued((*id).into(), false);
-            end_job(&mut transaction, &job, &end, None, now.system_ms).await?;
+            end_job(&mut transaction, &job, &end, None, now).await?;
         }
         transaction.commit().await?;
         for id in &late {

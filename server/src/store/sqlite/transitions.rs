@@ -4,6 +4,7 @@ use api::job::Status;
 use sqlx::SqliteConnection;
 
 use crate::clock::Now;
+use crate::store::candidates::left_until;
 use crate::store::ending::EndingJob;
 use crate::store::sqlite::queries::insert_event;
 use crate::store::{End, StoreError};
@@ -14,7 +15,7 @@ pub(super) async fn end_job(
     job: &EndingJob,
     end: &End,
     progress: Option<&str>,
-    now: i64,
+    now: Now,
 ) -> Result<Option<Status>, StoreError> {
     let Some(ending) = job.ending(end)? else {
         return Ok(None);
@@ -30,7 +31,7 @@ pub(super) async fn end_job(
         "UPDATE jobs SET status = ?, status_reason = ?, outcome = ?, summary = ?, cancel_requested = ?, \
          lease_expires_at = NULL, finished_at = ?, progress = COALESCE(?, progress), attempts = attempts - ?, \
          fruitless = max(fruitless - ?, 0), last_event = last_event + ?, version = version + 1, \
-         queued_at = queued_at + ?, deadline_at = deadline_at + ? \
+         queued_at = queued_at + ?, deadline_at = deadline_at + ?, avoided_worker = iif(?, worker, NULL), avoided_until = ? \
          WHERE id = ? AND status = ? RETURNING last_event",
     )
     .bind(status.as_str())
@@ -38,13 +39,15 @@ pub(super) async fn end_job(
     .bind(ending.outcome)
     .bind(&ending.summary)
     .bind(job.cancel_requested)
-    .bind(status.is_terminal().then_some(now))
+    .bind(status.is_terminal().then_some(now.system_ms))
     .bind(progress)
     .bind(ending.is_released)
     .bind(ending.is_released)
     .bind(status.is_terminal())
     .bind(step_ms)
     .bind(step_ms)
+    .bind(ending.is_left)
+    .bind(ending.is_left.then(|| left_until(now)))
     .bind(job.id.to_string())
     .bind(job.status.as_str())
     .fetch_one(&mut *connection)

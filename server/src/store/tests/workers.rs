@@ -6,6 +6,7 @@ on_both_engines! { Fixture:
     the_latest_contact_counts_and_a_silent_worker_is_forgotten,
     a_drained_worker_stays_drained_although_it_was_away,
     a_worker_is_listed_with_the_jobs_that_it_holds,
+    a_job_that_a_worker_has_given_up_is_left_to_another_one_for_a_while,
 }
 
 fn contact(id: Uuid, free_memory_mb: i64, ago_s: u64) -> WorkerContact {
@@ -103,4 +104,70 @@ async fn a_worker_is_listed_with_the_jobs_that_it_holds(fixture: Fixture) {
     assert_eq!(fixture.workers().await[0].jobs, 1);
     fixture.ended_with(&claims[0], &JobUpdate::default()).await;
     assert_eq!(fixture.workers().await[0].jobs, 0);
+}
+
+/// A request for a job with the next number of all.
+fn asks(worker: Uuid) -> ClaimRequest {
+    static LAST: AtomicI64 = AtomicI64::new(0);
+    let asked = request(10_000, Duration::from_secs(9));
+    ClaimRequest {
+        request: RequestNumber {
+            worker,
+            number: 1 + LAST.fetch_add(1, Ordering::Relaxed),
+        },
+        ..asked
+    }
+}
+
+async fn a_job_that_a_worker_has_given_up_is_left_to_another_one_for_a_while(fixture: Fixture) {
+    let [worker, other] = [Uuid::now_v7(), Uuid::now_v7()];
+    let failing = WorkerContact {
+        failing: Some("it starts no solves".to_owned()),
+        ..contact(other, 1, 0)
+    };
+    let able = contact(other, 1, 0);
+    let here = contact(worker, 1, 0);
+    let claims = async |worker| {
+        let claims = fixture.store.claim(&asks(worker)).await;
+        claims.expect("the store").pop()
+    };
+    // Transition, who is there, time until the next claim, whether the job is left to the other one.
+    let cases = [
+        (Transition::Decline, vec![&here, &able], 0, true),
+        (Transition::Decline, vec![&able], 29_000, true),
+        (Transition::WorkerLost, vec![&here, &able], 0, true),
+        (Transition::Release, vec![&here, &able], 0, false),
+        (Transition::Decline, vec![&here], 0, false),
+        (Transition::Decline, vec![&here, &failing], 0, false),
+        (Transition::Decline, vec![&here, &able], 31_000, false),
+    ];
+    let mut now = 1_000_000;
+    for (transition, there, waited, is_left) in cases {
+        // Those of the case before are away.
+        now += 2 * 3_600_000;
+        fixture.store.set_clock(now);
+        let id = fixture.queued().await;
+        let claim = claims(worker).await.expect("the job");
+        let there: Vec<_> = there.into_iter().cloned().collect();
+        fixture.noted(&there).await;
+        let ended = fixture
+            .ended(&claim, &JobUpdate::default(), transition, now)
+            .await;
+        assert_eq!(ended, Some(Status::Queued));
+        fixture.store.set_clock(now + waited);
+        let claimed = claims(worker).await;
+        assert_eq!(
+            claimed.is_none(),
+            is_left,
+            "{transition:?} {there:?} {waited}"
+        );
+        let claim = match claimed {
+            Some(claim) => claim,
+            None => claims(other).await.expect("the job"),
+        };
+        assert_eq!(claim.id, id);
+        let update = JobUpdate::default();
+        let end = fixture.ended(&claim, &update, Transition::Fail, now + waited);
+        assert_eq!(end.await, Some(Status::Failed));
+    }
 }
