@@ -42,7 +42,8 @@
 //! a folder of its own, so that a worker that lost its lease cannot touch the files of the next attempt.
 //!
 //! A *repeated* operation is one whose answer was lost. Claims are numbered by their worker, writes under a lease from 1, and the
-//! store recognizes a number that it has seen.
+//! store recognizes a number that it has seen. After a gap in the numbers the lease is lost, because the database has lost writes
+//! (a failover, a restored backup); `restart` alone may follow one, because it deletes what they have left.
 //!
 //! Times are milliseconds since 1970 and the store's own. Leases are lengths: when one ends is a matter of a monotonic clock of the process
 //! that serves a file ([`Store::clock`]), and of the clock of a database that several processes serve.
@@ -74,6 +75,7 @@ mod limits;
 mod list_order;
 mod local;
 mod migrations;
+mod named_files;
 mod new_row;
 mod objects;
 mod operations;

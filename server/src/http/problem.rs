@@ -135,7 +135,7 @@ impl From<StoreError> for ProblemResponse {
                 tracing::error!(%error, "a file is not what it should be");
                 return ProblemType::FILE_DIFFERS.with_detail(error.to_string());
             }
-            StoreError::LostFile(_) => {
+            StoreError::LostFile(_) | StoreError::NoFile { .. } => {
                 ProblemType::RESULTS_UNREACHABLE.with_detail(error.to_string())
             }
             StoreError::Objects(_) => ProblemType::RESULTS_UNREACHABLE

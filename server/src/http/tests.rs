@@ -172,6 +172,13 @@ impl Service {
         id
     }
 
+    /// Path of a large result of a job with one attempt.
+    pub(crate) fn large_result(&self, id: &str, name: &str) -> PathBuf {
+        let attempts = std::fs::read_dir(self.results_folder().join(id));
+        let attempt = attempts.expect("a folder").next().expect("an attempt");
+        attempt.expect("a folder").path().join(name)
+    }
+
     /// Adds a running job with rows and snapshots at the cycles 10 and 20; returns its id.
     pub(crate) async fn with_results(&self) -> String {
         let id = self.queued(r#"{"system":{"kind":"dimm"}}"#).await;

@@ -42,6 +42,14 @@ impl ObjectPart {
         &self.key
     }
 
+    /// Length of the whole object, bytes.
+    ///
+    /// # Errors
+    /// [`ObjectsError`].
+    pub async fn object_length(&self) -> Result<u64, ObjectsError> {
+        self.objects.length(&self.key).await
+    }
+
     /// Its length, bytes.
     pub fn length(&self) -> u64 {
         self.range.end - self.range.start

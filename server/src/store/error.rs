@@ -7,6 +7,7 @@ use uuid::Uuid;
 
 use crate::export::files;
 use crate::objects::ObjectsError;
+use crate::store::IntegrityError;
 
 /// Why an operation of the store failed.
 #[derive(Debug, thiserror::Error)]
@@ -164,6 +165,14 @@ pub enum StoreError {
     /// A file that an update names is not where it was sent to.
     #[error("the file {0} is no longer there; it has to be sent again")]
     LostFile(String),
+    /// A file that an update names is not in the folder of its attempt.
+    #[error("the file {name} of the attempt: {cause}")]
+    NoFile {
+        /// The file.
+        name: String,
+        /// What is wrong.
+        cause: IntegrityError,
+    },
     /// The database has not answered in time.
     #[error("the database has not answered within {0:?}")]
     NoAnswer(std::time::Duration),

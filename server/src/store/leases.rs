@@ -54,6 +54,19 @@ impl From<&Claim> for Lease {
     }
 }
 
+/// Smallest step by which the number of a job's lease is raised.
+const SMALLEST_STEP: i64 = 1 << 32;
+
+impl Lease {
+    /// By how much the number of a job's lease is raised: at random, up to twice the smallest step, so that a database that has lost a lease
+    /// (a failover, a restored backup) does not give its number to another worker while its own still writes.
+    pub(in crate::store) fn step() -> i64 {
+        // The last 32 bits of a UUID of version 7 are random (RFC 9562, section 5.7).
+        let random = Uuid::now_v7().as_u128() & u128::from(u32::MAX);
+        SMALLEST_STEP + i64::try_from(random).unwrap_or_default()
+    }
+}
+
 /// A job under a lease.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Claim {
@@ -75,6 +88,13 @@ pub struct Claim {
     pub cpu_ms: i64,
     /// Checkpoint to resume from.
     pub checkpoint: Option<ClaimedCheckpoint>,
+}
+
+impl Claim {
+    /// Whether the job had no lease before.
+    pub fn is_first(&self) -> bool {
+        self.lease < 2 * SMALLEST_STEP
+    }
 }
 
 /// The checkpoint of a claimed job.
@@ -103,7 +123,8 @@ impl ClaimedCheckpoint {
 /// What a worker writes in one transaction.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct JobUpdate {
-    /// Number of the write under its lease, from 1: one that is repeated, because its answer was lost, has no further effect.
+    /// Number of the write under its lease, from 1 without gaps: one that is repeated, because its answer was lost, has no further effect, and
+    /// one after a gap has none, because the database has lost the writes before it.
     pub number: i64,
     /// Progress of the job.
     pub progress: Progress,
@@ -234,6 +255,22 @@ impl End {
             outcome: None,
             summary: None,
         }
+    }
+}
+
+/// End of the leases of a database that was restored, whose workers may have written more than it knows: before all times, so that they
+/// have ended.
+pub(in crate::store) const ENDED_BY_RESTORE: i64 = -1;
+
+/// How a job is reclaimed whose lease has ended at a time: by a restore of the database, which costs no attempt, or because its worker was lost.
+pub(in crate::store) fn reclaim(ended_at: i64, lost: &str) -> End {
+    if ended_at == ENDED_BY_RESTORE {
+        End::without_result(
+            Transition::Release,
+            "the database was restored while it ran",
+        )
+    } else {
+        End::without_result(Transition::WorkerLost, lost)
     }
 }
 

@@ -15,7 +15,7 @@ use crate::metrics::Metrics;
 use crate::objects::Objects;
 use crate::store::batch_counts::BatchCounts;
 use crate::store::folder::{Folder, beside};
-use crate::store::{Cancelled, DataDisk, LeaseState, Limits};
+use crate::store::{Cancelled, DataDisk, Lease, LeaseState, Limits};
 
 /// Number of changes that a subscriber may fall behind.
 const CHANGE_CAPACITY: usize = 1024;
@@ -30,6 +30,12 @@ pub(in crate::store) enum Told {
     Waiting,
     /// A job has changed.
     Changed(Uuid),
+}
+
+/// Logs that a write follows a gap after the last one that the database has.
+pub(in crate::store) fn log_lost_writes(lease: Lease, number: i64, last: i64) {
+    let Lease { job, number: lease } = lease;
+    tracing::warn!(%job, lease, number, last, "the database has lost writes of a worker, whose lease ends");
 }
 
 /// What this process has of a store.
@@ -102,6 +108,25 @@ impl Local {
     pub(in crate::store) fn stale_write(&self) -> LeaseState {
         self.metrics.stale_writes.inc();
         LeaseState::Lost
+    }
+
+    /// The state of the lease of a numbered write that had no effect, by the number of the last one and whether the end of the job was
+    /// requested, if the job is held: it is a repeated one; or a gap shows that the database has lost writes, and with them the lease.
+    pub(in crate::store) fn written_before(
+        &self,
+        (lease, number): (Lease, i64),
+        held: Option<(i64, bool)>,
+    ) -> LeaseState {
+        match held {
+            Some((last, cancel_requested)) if number <= last => {
+                LeaseState::Held { cancel_requested }
+            }
+            Some((last, _)) => {
+                log_lost_writes(lease, number, last);
+                self.stale_write()
+            }
+            None => self.stale_write(),
+        }
     }
 
     /// Notifies the subscribers of a job.

@@ -40,6 +40,7 @@ mod columns;
 mod file_objects;
 mod files;
 mod leases;
+mod lost_commits;
 mod notifications;
 mod object_names;
 mod objects;
@@ -50,13 +51,15 @@ mod verification;
 mod workers;
 mod writes;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicI64, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use api::job::{Outcome, Status};
 use solver::record::CycleReport;
+use sqlx::{Connection, Executor, PgConnection, SqliteConnection};
 use tempfile::TempDir;
 use tokio::sync::Barrier;
 use uuid::Uuid;
@@ -101,7 +104,7 @@ impl Store {
 
     /// Records an update with the next number, and renews the lease for a long time.
     pub(crate) async fn record_next(&self, claim: &Claim, update: &JobUpdate) -> LeaseState {
-        let update = numbered(update.clone());
+        let update = numbered(claim, update.clone());
         let recorded = self.record(claim, &update, Duration::from_hours(1)).await;
         recorded.expect("the store")
     }
@@ -113,7 +116,8 @@ impl Store {
         update: &JobUpdate,
         end: &End,
     ) -> Option<Status> {
-        let ended = self.end(claim, &numbered(update.clone()), end).await;
+        let update = numbered(claim, update.clone());
+        let ended = self.end(claim, &update, end).await;
         ended.expect("the store")
     }
 
@@ -154,11 +158,17 @@ pub(crate) fn request(memory_mb: i64, lease: Duration) -> ClaimRequest {
     }
 }
 
-/// An update with the next number of all.
-pub(in crate::store) fn numbered(update: JobUpdate) -> JobUpdate {
-    static LAST: AtomicI64 = AtomicI64::new(0);
-    let number = 1 + LAST.fetch_add(1, Ordering::Relaxed);
-    JobUpdate { number, ..update }
+/// An update with the next number under a lease, of those that are numbered here.
+pub(in crate::store) fn numbered(lease: impl Into<Lease>, update: JobUpdate) -> JobUpdate {
+    static LAST: Mutex<BTreeMap<(Uuid, i64), i64>> = Mutex::new(BTreeMap::new());
+    let lease = lease.into();
+    let mut last = LAST.lock().expect("no panic");
+    let number = last.entry((lease.job, lease.number)).or_default();
+    *number += 1;
+    JobUpdate {
+        number: *number,
+        ..update
+    }
 }
 
 /// An empty database, and a folder.
@@ -257,7 +267,7 @@ impl Fixture {
         update: &JobUpdate,
         expires_at: i64,
     ) -> LeaseState {
-        let update = numbered(update.clone());
+        let update = numbered(claim, update.clone());
         let length = self.store.until(expires_at);
         let state = self.store.record(claim, &update, length).await;
         state.expect("the store")
@@ -272,7 +282,7 @@ impl Fixture {
         now: i64,
     ) -> Option<Status> {
         self.store.set_clock(now);
-        let update = numbered(update.clone());
+        let update = numbered(claim, update.clone());
         let status = self.store.end(claim, &update, &end(transition)).await;
         status.expect("the store")
     }
@@ -280,6 +290,18 @@ impl Fixture {
     pub(in crate::store) async fn ended_with(&self, claim: &Claim, update: &JobUpdate) {
         let ended = self.ended(claim, update, Transition::Succeed, 2).await;
         ended.expect("the lease is held");
+    }
+
+    /// Executes a statement past the store.
+    pub(in crate::store) async fn execute(&self, statement: &'static str) {
+        let executed = if self.store.is_shared() {
+            let mut database = PgConnection::connect(&self.url).await.expect("a server");
+            database.execute(statement).await.map(drop)
+        } else {
+            let mut database = SqliteConnection::connect(&self.url).await.expect("a file");
+            database.execute(statement).await.map(drop)
+        };
+        executed.expect("executed");
     }
 
     pub(in crate::store) async fn cycles(&self, id: Uuid) -> Vec<u64> {

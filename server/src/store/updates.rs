@@ -19,6 +19,7 @@ impl Store {
     ) -> Result<LeaseState, StoreError> {
         let lease = lease.into();
         let mut update = self.with_file_objects(lease, update).await?;
+        self.check_files(lease, &update).await?;
         if let Some(checkpoint) = &update.checkpoint
             && let Some(key) = self.put_checkpoint(lease, checkpoint).await?
         {
@@ -40,6 +41,7 @@ impl Store {
     ) -> Result<Option<Status>, StoreError> {
         let lease = lease.into();
         let update = self.with_file_objects(lease, update).await?;
+        self.check_files(lease, &update).await?;
         self.write_end(lease, &update, end).await
     }
 }

@@ -49,7 +49,7 @@ impl<E: Employer> Attempt<'_, E> {
     pub(super) async fn finalize(
         &self,
         updates: &[JobUpdate],
-        number: i64,
+        mut number: i64,
         (end, computed): (&End, Option<Computed>),
     ) -> Result<(), EmployerError> {
         let lease = self.lease();
@@ -68,8 +68,11 @@ impl<E: Employer> Attempt<'_, E> {
             match retry_unless(record, is_final).await {
                 Ok(LeaseState::Held { .. }) => {}
                 Ok(LeaseState::Lost) => return Ok(()),
-                // What was to be recorded of a cancelled job is lost, the job ends.
-                Err(error) if is_final(&error) => break,
+                // What was to be recorded of a cancelled job is lost, the job ends: by the write that follows the last one recorded.
+                Err(error) if is_final(&error) => {
+                    number = update.number;
+                    break;
+                }
                 Err(error) => return Err(error),
             }
         }

@@ -73,7 +73,7 @@ impl UpdateBuffer {
         }
     }
 
-    /// Discards everything; the run starts at cycle 0. Returns the number of this write.
+    /// Discards everything, also what could not be recorded; the run starts at cycle 0. Returns the number of this write.
     pub(super) fn restart(&mut self) -> i64 {
         let number = self.next_number();
         *self = Self {

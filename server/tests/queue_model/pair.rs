@@ -2,6 +2,7 @@
 
 mod requests;
 
+use std::collections::HashMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicI64, Ordering};
 
@@ -12,7 +13,7 @@ use server::clock::Clock;
 use server::estimate::Estimate;
 use server::queue::{Transition, sort_key};
 use server::spec;
-use server::store::{Claim, Limits, NewJob, Store, SubmitOptions, Submitted};
+use server::store::{Claim, Lease, Limits, NewJob, Store, SubmitOptions, Submitted};
 use uuid::Uuid;
 
 use crate::model::{ATTEMPT_LIMIT, ModelJob};
@@ -22,12 +23,14 @@ use crate::step::{ENDS, LEASE, LEASE_MS, Step};
 pub(crate) struct Pair {
     pub(crate) store: Store,
     now: i64,
-    /// Number of the last request.
+    /// Number of the last claim.
     number: i64,
     worker: Uuid,
     job: NewJob,
     jobs: Vec<ModelJob>,
     claims: Vec<Claim>,
+    /// Number of the last write under each lease.
+    writes: HashMap<Lease, i64>,
 }
 
 /// Limits of the model.
@@ -57,6 +60,7 @@ impl Pair {
             job,
             jobs: Vec::new(),
             claims: Vec::new(),
+            writes: HashMap::new(),
         }
     }
 
@@ -81,6 +85,7 @@ impl Pair {
                 checkpoint,
                 times,
             } => self.record(*claim, *checkpoint, *times).await?,
+            Step::RecordAfterGap { claim } => self.record_after_gap(*claim).await?,
             Step::Renew { claim } => self.renew(*claim).await?,
             Step::Restart { claim, times } => self.restart(*claim, *times).await?,
             Step::End {
@@ -101,6 +106,13 @@ impl Pair {
             }
         }
         self.compare().await
+    }
+
+    /// Number of the next write under a lease.
+    fn next_write(&mut self, claim: &Claim) -> i64 {
+        let number = self.writes.entry(claim.into()).or_default();
+        *number += 1;
+        *number
     }
 
     async fn submit(&mut self, priority: i32, deadline_s: Option<u32>) {
@@ -172,7 +184,10 @@ impl Pair {
                     queued += 1;
                 } else {
                     // It is held under a new lease until its manifest is built.
-                    job.lease += 1;
+                    let claim = reclaimed.ending.iter().find(|claim| claim.id == job.id);
+                    let lease = claim.map_or(0, |claim| claim.lease);
+                    prop_assert!(lease > job.lease);
+                    job.lease = lease;
                     job.expires_at = self.now + LEASE_MS;
                     ending.push((job.id, job.lease));
                 }

@@ -26,6 +26,10 @@ pub(crate) enum Step {
         checkpoint: bool,
         times: usize,
     },
+    /// The database has lost the write before.
+    RecordAfterGap {
+        claim: usize,
+    },
     Renew {
         claim: usize,
     },
@@ -73,6 +77,7 @@ pub(crate) fn step() -> impl Strategy<Value = Step> {
         4 => (1..4_usize, TIMES).prop_map(|(slots, times)| Step::Claim { slots, times }),
         4 => (any::<usize>(), any::<bool>(), TIMES)
             .prop_map(|(claim, checkpoint, times)| Step::Record { claim, checkpoint, times }),
+        1 => any::<usize>().prop_map(|claim| Step::RecordAfterGap { claim }),
         2 => any::<usize>().prop_map(|claim| Step::Renew { claim }),
         1 => (any::<usize>(), TIMES).prop_map(|(claim, times)| Step::Restart { claim, times }),
         3 => (any::<usize>(), 0..ENDS.len(), TIMES)

@@ -48,7 +48,8 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn lease_state(&self, lease: impl Into<Lease>) -> Result<LeaseState, StoreError>;
 
-    /// Deletes results and checkpoint, because the run restarts at cycle 0. The write has a number as an update has.
+    /// Deletes results and checkpoint, because the run restarts at cycle 0: this attempt has no checkpoint then. The write has a number as an update has,
+    /// and may follow a gap: what the writes before it have left is deleted.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.

@@ -4,6 +4,7 @@ use api::results::{ResultFile, Snapshot};
 use solver::record::CycleReport;
 use uuid::Uuid;
 
+use crate::objects::Source;
 use crate::store::operations::operations;
 use crate::store::results_to_move::{Moved, Stored};
 use crate::store::stored_block::StoredBlock;
@@ -86,6 +87,9 @@ operations! {
 
     /// Reads a page of the rows of events after one.
     pub(in crate::store) async fn event_rows(&self, id: Uuid, after: i64) -> Result<Vec<StoredEvent>, StoreError>;
+
+    /// The files of a job whose content is not in the database, and where it is.
+    pub(in crate::store) async fn files_outside(&self, id: Uuid) -> Result<Vec<(ResultFile, Source)>, StoreError>;
 
     /// Reads the row of a file.
     pub(in crate::store) async fn file_row(&self, id: Uuid, name: &str) -> Result<Option<(ResultFile, Content)>, StoreError>;

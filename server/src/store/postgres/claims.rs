@@ -15,7 +15,7 @@ use crate::store::postgres::claimed::Claimed;
 use crate::store::postgres::{LONGEST_TURN, PostgresStore, begin, checkpoints, time_of};
 use crate::store::rows::{StoredRow, attempt_event, claim, integer};
 use crate::store::workers::present_from;
-use crate::store::{Claim, ClaimRequest, ClaimedCheckpoint, StoreError};
+use crate::store::{Claim, ClaimRequest, ClaimedCheckpoint, Lease, StoreError};
 
 /// Number of waiting jobs among which those that fit are searched, beside one for each slot.
 const CANDIDATES: usize = 64;
@@ -284,9 +284,10 @@ async fn claim_admitted(
         .iter()
         .map(|(_, index)| of(index).is_remote)
         .collect();
+    let step = Lease::step();
     let rows = sqlx::query(
         "WITH free AS (SELECT id FROM jobs WHERE id = ANY($1) AND status = 'queued' FOR UPDATE SKIP LOCKED) \
-         UPDATE jobs SET status = 'running', lease = lease + 1, lease_expires_at = given.ends, last_write = 0, worker = given.worker, \
+         UPDATE jobs SET status = 'running', lease = lease + $7, lease_expires_at = given.ends, last_write = 0, worker = given.worker, \
          claim_number = given.number, is_remote = given.remote, attempts = attempts + 1, fruitless = fruitless + 1, \
          started_at = COALESCE(started_at, $6), status_reason = NULL, last_event = last_event + 1, version = version + 1 \
          FROM free JOIN unnest($1::uuid[], $2::uuid[], $3::bigint[], $4::bigint[], $5::boolean[]) WITH ORDINALITY \
@@ -299,6 +300,7 @@ async fn claim_admitted(
     .bind(ends)
     .bind(remote)
     .bind(now.system_ms)
+    .bind(step)
     .fetch_all(&mut *connection)
     .await?;
     let mut claimed = Vec::with_capacity(rows.len());
@@ -306,9 +308,10 @@ async fn claim_admitted(
     for row in rows {
         let id = row.id("id")?;
         // Under its first lease a job has no results.
-        let checkpoint = match row.integer("lease")? {
-            1 => None,
-            _ => checkpoints::restore(connection, id).await?,
+        let checkpoint = if row.integer("lease")? == step {
+            None
+        } else {
+            checkpoints::restore(connection, id).await?
         };
         let from_cycle = checkpoint.as_ref().map_or(0, ClaimedCheckpoint::cycle);
         let claim = claim(id, &row, now, checkpoint)?;

@@ -6,6 +6,7 @@ use api::results::ResultFile;
 use sqlx::postgres::PgConnection;
 use uuid::Uuid;
 
+use crate::objects::Source;
 use crate::store::block::Block;
 use crate::store::file_objects::is_of_job;
 use crate::store::folder::Folder;
@@ -14,7 +15,7 @@ use crate::store::postgres::job_rows::lock;
 use crate::store::postgres::{PostgresStore, begin};
 use crate::store::rows::{StoredRow, entry, integer};
 use crate::store::stored_block::unreadable;
-use crate::store::stored_file::file;
+use crate::store::stored_file::{file, source};
 use crate::store::{Content, Lease, NewContent, NewFile, StoreError};
 
 impl PostgresStore {
@@ -60,6 +61,25 @@ impl PostgresStore {
         };
         let object = row.optional_text("object")?;
         file(&self.local, id, &row, object.as_deref()).map(Some)
+    }
+
+    pub(in crate::store) async fn files_outside(
+        &self,
+        id: Uuid,
+    ) -> Result<Vec<(ResultFile, Source)>, StoreError> {
+        let rows = sqlx::query(
+            "SELECT name, cycle, media_type, bytes, sha256, damaged, place, object FROM result_files WHERE job_id = $1 AND content IS NULL",
+        )
+        .bind(id)
+        .fetch_all(&self.readers)
+        .await?;
+        let mut files = Vec::with_capacity(rows.len());
+        for row in &rows {
+            let (entry, object) = (entry(row)?, row.optional_text("object")?);
+            let source = source(&self.local, id, &entry, (row, object.as_deref()))?;
+            files.extend(source.map(|source| (entry, source)));
+        }
+        Ok(files)
     }
 
     pub(in crate::store) async fn mark_damaged(

@@ -39,19 +39,6 @@ impl PostgresStore {
         Ok(LeaseState::Held { cancel_requested })
     }
 
-    /// The state of the lease of a write that had no effect: it is a repeated one, or the lease was lost.
-    async fn written_before(
-        &self,
-        connection: &mut PgConnection,
-        lease: Lease,
-    ) -> Result<LeaseState, StoreError> {
-        let cancel_requested = held(connection, lease).await?;
-        Ok(match cancel_requested {
-            Some(cancel_requested) => LeaseState::Held { cancel_requested },
-            None => self.local.stale_write(),
-        })
-    }
-
     pub(in crate::store) async fn renew(
         &self,
         lease: impl Into<Lease>,
@@ -123,7 +110,10 @@ impl PostgresStore {
         lease: impl Into<Lease>,
     ) -> Result<LeaseState, StoreError> {
         let mut connection = self.pool.acquire().await?;
-        Ok(LeaseState::of(held(&mut connection, lease.into()).await?))
+        let held = held(&mut connection, lease.into()).await?;
+        Ok(LeaseState::of(
+            held.map(|(_, cancel_requested)| cancel_requested),
+        ))
     }
 
     pub(in crate::store) async fn restart(
@@ -134,8 +124,8 @@ impl PostgresStore {
         self.local.disk.check()?;
         let lease = lease.into();
         let mut transaction = begin(&self.pool, None).await?;
-        let held: Option<(i64, bool, i64)> = sqlx::query_as(
-            "UPDATE jobs SET last_write = $1, last_event = last_event + 1, version = version + 1 \
+        let restarted: Option<(i64, bool, i64)> = sqlx::query_as(
+            "UPDATE jobs SET last_write = $1, last_event = last_event + 1, version = version + 1, fruitless = GREATEST(fruitless, 1) \
              WHERE id = $2 AND lease = $3 AND status = 'running' AND last_write < $1 \
              RETURNING last_event, cancel_requested, attempts",
         )
@@ -144,8 +134,9 @@ impl PostgresStore {
         .bind(lease.number)
         .fetch_optional(&mut *transaction)
         .await?;
-        let Some((event, cancel_requested, attempt)) = held else {
-            return self.written_before(&mut transaction, lease).await;
+        let Some((event, cancel_requested, attempt)) = restarted else {
+            let held = held(&mut transaction, lease).await?;
+            return Ok(self.local.written_before((lease, number), held));
         };
         let attempt = attempt.try_into().unwrap_or_default();
         checkpoints::delete_results_after(&mut transaction, lease.job, None).await?;
@@ -195,12 +186,15 @@ impl PostgresStore {
     }
 }
 
-/// Whether the end of a held job was requested; `None` if the lease was lost.
-async fn held(connection: &mut PgConnection, lease: Lease) -> Result<Option<bool>, StoreError> {
-    let cancel_requested = sqlx::query_scalar(
-        "SELECT cancel_requested FROM jobs WHERE id = $1 AND lease = $2 AND status = 'running'",
+/// Number of the last write of a held job, and whether its end was requested; `None` if the lease was lost.
+async fn held(
+    connection: &mut PgConnection,
+    lease: Lease,
+) -> Result<Option<(i64, bool)>, StoreError> {
+    let held = sqlx::query_as(
+        "SELECT last_write, cancel_requested FROM jobs WHERE id = $1 AND lease = $2 AND status = 'running'",
     )
     .bind(lease.job)
     .bind(lease.number);
-    Ok(cancel_requested.fetch_optional(connection).await?)
+    Ok(held.fetch_optional(connection).await?)
 }

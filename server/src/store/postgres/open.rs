@@ -14,12 +14,13 @@ use uuid::Uuid;
 use crate::clock::Clock;
 use crate::export::files::parent;
 use crate::groups::Groups;
+use crate::store::leases::ENDED_BY_RESTORE;
 use crate::store::local::Local;
 use crate::store::postgres::PostgresStore;
 use crate::store::postgres::durability;
 use crate::store::postgres::migrations::{migrator, newest_version};
 use crate::store::postgres::notifications::{hear, tell};
-use crate::store::{BackupError, Limits, StoreError};
+use crate::store::{BackupError, Lease, Limits, StoreError};
 
 /// Number of connections for claims and writes, among them one that tells changes.
 const WRITERS: u32 = 9;
@@ -217,12 +218,24 @@ async fn migrate(options: &PgConnectOptions) -> Result<(), StoreError> {
     }
     // The transactions of another cluster, from which the database was restored, had higher numbers. That of this statement is above all
     // that have ended in this one.
-    sqlx::query(
+    let mut transaction = server.begin().await?;
+    let restored = sqlx::query(
         "UPDATE revisions SET last = last + behind FROM (SELECT max(revision) - fretwear_revision() AS behind FROM jobs) AS jobs \
          WHERE behind > 0",
     )
-    .execute(&mut server)
+    .execute(&mut *transaction)
     .await?;
+    if restored.rows_affected() > 0 {
+        // Its workers may have written more to the original.
+        sqlx::query(
+            "UPDATE jobs SET lease = lease + $1, lease_expires_at = $2 WHERE status = 'running'",
+        )
+        .bind(Lease::step())
+        .bind(ENDED_BY_RESTORE)
+        .execute(&mut *transaction)
+        .await?;
+    }
+    transaction.commit().await?;
     Ok(server.close().await?)
 }
 

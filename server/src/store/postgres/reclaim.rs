@@ -6,14 +6,14 @@ use api::job::Status;
 use uuid::Uuid;
 
 use crate::clock::Now;
-use crate::queue::Transition;
 use crate::store::ending::EndingJob;
+use crate::store::leases;
 use crate::store::postgres::PostgresStore;
 use crate::store::postgres::compared::Compared;
 use crate::store::postgres::transitions::end_job;
 use crate::store::rows;
 use crate::store::rows::integer;
-use crate::store::{End, Reclaimed, StoreError};
+use crate::store::{Lease, Reclaimed, StoreError};
 
 const REASON: &str = "its worker was lost";
 
@@ -34,27 +34,28 @@ impl PostgresStore {
             None => integer(asked.elapsed().as_millis()),
         };
         let ended_by = now.monotonic_ms - waited_ms;
-        let lost: Vec<(Uuid, i64, bool)> = sqlx::query_as(
-            "SELECT id, fruitless, cancel_requested FROM jobs WHERE status = 'running' AND lease_expires_at <= $1 \
+        let lost: Vec<(Uuid, i64, bool, i64)> = sqlx::query_as(
+            "SELECT id, fruitless, cancel_requested, lease_expires_at FROM jobs WHERE status = 'running' AND lease_expires_at <= $1 \
              ORDER BY id FOR UPDATE SKIP LOCKED",
         )
         .bind(ended_by)
         .fetch_all(&mut *transaction)
         .await?;
-        let end = End::without_result(Transition::WorkerLost, REASON);
         let (mut queued, mut ending) = (Vec::new(), Vec::new());
-        for (id, fruitless, cancel_requested) in lost {
+        for (id, fruitless, cancel_requested, ended_at) in lost {
+            let end = leases::reclaim(ended_at, REASON);
             let fruitless = fruitless.try_into().unwrap_or_default();
             let limit = self.local.attempt_limit;
             let job = EndingJob::running(id, fruitless, limit, cancel_requested);
             if job.after(end.transition).is_some_and(Status::is_terminal) {
                 // Nothing is solved under the new lease, which this process holds.
                 let row = sqlx::query(
-                    "UPDATE jobs SET lease = lease + 1, lease_expires_at = $1, last_write = 0, worker = NULL, claim_number = NULL, \
+                    "UPDATE jobs SET lease = lease + $3, lease_expires_at = $1, last_write = 0, worker = NULL, claim_number = NULL, \
                      is_remote = false WHERE id = $2 RETURNING lease, spec, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
                 )
                 .bind(now.end_of(length))
                 .bind(id)
+                .bind(Lease::step())
                 .fetch_one(&mut *transaction)
                 .await?;
                 ending.push(rows::claim(id, &row, now, None)?);

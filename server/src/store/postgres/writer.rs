@@ -6,6 +6,7 @@ use uuid::Uuid;
 
 use crate::clock::Now;
 use crate::store::ending::EndingJob;
+use crate::store::local::log_lost_writes;
 use crate::store::postgres::begin;
 use crate::store::postgres::blocks::{NewBlock, insert_blocks};
 use crate::store::postgres::transitions::{JobEnd, end_jobs};
@@ -144,7 +145,7 @@ async fn lock<'a>(
     let rows: Vec<(i64, i64, bool, i64, i64)> = sqlx::query_as(sqlx::AssertSqlSafe(format!(
         "SELECT n, fruitless, cancel_requested, last_event, fretwear_now() FROM jobs \
          JOIN unnest($1::uuid[], $2::bigint[], $3::bigint[]) WITH ORDINALITY AS given (id, lease, number, n) \
-         ON jobs.id = given.id AND jobs.lease = given.lease WHERE status = 'running' AND last_write < number \
+         ON jobs.id = given.id AND jobs.lease = given.lease WHERE status = 'running' AND last_write = number - 1 \
          ORDER BY jobs.id FOR UPDATE OF jobs{skipped}"
     )))
     .bind(jobs)
@@ -168,14 +169,14 @@ async fn lock<'a>(
     Ok((held.collect(), now.into()))
 }
 
-/// What earlier writes of the same numbers have led to.
+/// What earlier writes of the same numbers have led to; none where the lease was lost, as after a gap in the numbers.
 async fn effects_before(
     connection: &mut PgConnection,
     writes: &[&Write],
 ) -> Result<Vec<(usize, Effect)>, StoreError> {
     let (jobs, leases, numbers) = keys(writes);
-    let rows: Vec<(i64, String, bool, bool)> = sqlx::query_as(
-        "SELECT n, status, cancel_requested, last_write = number FROM jobs \
+    let rows: Vec<(i64, String, bool, i64)> = sqlx::query_as(
+        "SELECT n, status, cancel_requested, last_write FROM jobs \
          JOIN unnest($1::uuid[], $2::bigint[], $3::bigint[]) WITH ORDINALITY AS given (id, lease, number, n) \
          ON jobs.id = given.id AND jobs.lease = given.lease",
     )
@@ -184,14 +185,20 @@ async fn effects_before(
     .bind(numbers)
     .fetch_all(connection)
     .await?;
-    let effect = |(n, status, cancel_requested, is_last): (i64, String, bool, bool)| {
+    let effect = |(n, status, cancel_requested, last): (i64, String, bool, i64)| {
         let index = usize::try_from(n - 1).ok()?;
         let status = Status::from_name(&status)?;
-        let effect = match writes.get(index)?.kind {
-            WriteKind::Renew(_) if status == Status::Running => Effect::Held { cancel_requested },
-            WriteKind::End(_) if status != Status::Running && is_last => {
-                Effect::Ended(Some(status))
+        let write = writes.get(index)?;
+        let number = write.update.number;
+        let is_running = status == Status::Running;
+        if is_running && number > last {
+            log_lost_writes(write.lease, number, last);
+        }
+        let effect = match write.kind {
+            WriteKind::Renew(_) if is_running && number <= last => {
+                Effect::Held { cancel_requested }
             }
+            WriteKind::End(_) if !is_running && number == last => Effect::Ended(Some(status)),
             WriteKind::Renew(_) | WriteKind::End(_) => return None,
         };
         Some((index, effect))

@@ -10,11 +10,12 @@ use sqlx::{ConnectOptions, Connection, Row};
 
 use crate::export::files::{create_folder, parent};
 use crate::store::folder::{Folder, beside};
+use crate::store::leases::ENDED_BY_RESTORE;
 use crate::store::rows::entry;
 use crate::store::sqlite::identity::schema_version;
 use crate::store::sqlite::moved_meanwhile::take_moved;
 use crate::store::sqlite::open::{lock, options};
-use crate::store::{BackupError, CopySummary, IntegrityError, integrity};
+use crate::store::{BackupError, CopySummary, IntegrityError, Lease, integrity};
 
 /// File name of the database in a backup.
 const NAME: &str = "fretwear.db";
@@ -98,7 +99,7 @@ async fn still_named(
     Ok((damaged, deleted))
 }
 
-/// Completes a copy: marks the damaged files, and removes the owner; returns what to say of each file.
+/// Completes a copy: marks the damaged files, removes the owner, and ends the leases; returns what to say of each file.
 async fn complete(database: &Path, damaged: Vec<Damage>) -> Result<Vec<String>, BackupError> {
     let mut connection = at(database).connect().await?;
     let (has_marks, mut said) = (has_marks(&mut connection).await?, Vec::new());
@@ -111,6 +112,7 @@ async fn complete(database: &Path, damaged: Vec<Damage>) -> Result<Vec<String>, 
             .execute(&mut connection)
             .await?;
     }
+    end_leases(&mut connection).await?;
     let moves: i64 =
         sqlx::query_scalar("SELECT count(*) FROM sqlite_master WHERE name = 'object_store'")
             .fetch_one(&mut connection)
@@ -137,6 +139,16 @@ async fn complete(database: &Path, damaged: Vec<Damage>) -> Result<Vec<String>, 
     }
     connection.close().await?;
     Ok(said)
+}
+
+/// Ends all leases of a copy: their workers go on writing to the original.
+async fn end_leases(connection: &mut SqliteConnection) -> Result<(), sqlx::Error> {
+    sqlx::query("UPDATE jobs SET lease = lease + ?, lease_expires_at = ? WHERE status = 'running'")
+        .bind(Lease::step())
+        .bind(ENDED_BY_RESTORE)
+        .execute(connection)
+        .await?;
+    Ok(())
 }
 
 /// Deletes the owners of missing files from a copy: ended jobs were deleted from the source, other jobs restart at
@@ -181,7 +193,9 @@ pub async fn restore(from: &Path, url: &str) -> Result<CopySummary, BackupError>
     let copied = copy_backup(&source, &target).await;
     if copied.is_err() {
         // What cannot be removed is named by no database, and prevents the next restore to this place.
-        let _ = std::fs::remove_file(beside(&target, PARTIAL));
+        for log in ["", "-wal", "-shm", "-journal"] {
+            let _ = std::fs::remove_file(beside(&target, &format!("{PARTIAL}{log}")));
+        }
         let _ = std::fs::remove_dir_all(&results);
         let _ = std::fs::remove_file(beside(&target, ".lock"));
     }
@@ -204,6 +218,10 @@ async fn copy_backup(source: &Path, target: &Path) -> Result<CopySummary, Backup
     }
     let partial = beside(target, PARTIAL);
     std::fs::copy(source, &partial).map_err(|cause| file(&partial, cause))?;
+    // A backup of an earlier version has leases, and the workers may have gone on since.
+    let mut connection = at(&partial).connect().await?;
+    end_leases(&mut connection).await?;
+    connection.close().await?;
     sync(&partial)?;
     std::fs::rename(&partial, target).map_err(|cause| file(target, cause))?;
     // The rename is durable once the folder is synced.

@@ -12,7 +12,7 @@ use crate::store::rows::{StoredRow, integer};
 use crate::store::sqlite::queries::{BEGIN, insert_attempt_event};
 use crate::store::sqlite::{SqliteStore, checkpoints};
 use crate::store::workers::present_from;
-use crate::store::{Claim, ClaimRequest, ClaimedCheckpoint, StoreError};
+use crate::store::{Claim, ClaimRequest, ClaimedCheckpoint, Lease, StoreError};
 
 /// Number of waiting jobs among which those that fit are searched, beside one for each slot.
 const CANDIDATES: usize = 64;
@@ -143,12 +143,13 @@ async fn claim(
     (now, expires_at): (Now, i64),
 ) -> Result<Claim, StoreError> {
     let row = sqlx::query(
-        "UPDATE jobs SET status = 'running', lease = lease + 1, lease_expires_at = ?, last_write = 0, worker = ?, claim_number = ?, \
+        "UPDATE jobs SET status = 'running', lease = lease + ?, lease_expires_at = ?, last_write = 0, worker = ?, claim_number = ?, \
          is_remote = ?, attempts = attempts + 1, fruitless = fruitless + 1, started_at = COALESCE(started_at, ?), \
          status_reason = NULL, last_event = last_event + 1, version = version + 1 \
          WHERE id = ? AND status = 'queued' \
          RETURNING lease, spec, last_event, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
     )
+    .bind(Lease::step())
     .bind(expires_at)
     .bind(request.request.worker.to_string())
     .bind(request.request.number)

@@ -7,6 +7,7 @@ use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
+use crate::objects::Source;
 use crate::store::block::Block;
 use crate::store::folder::Folder;
 use crate::store::rows::{entry, integer};
@@ -14,7 +15,7 @@ use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::blocks::{entries, update_entries};
 use crate::store::sqlite::queries::BEGIN;
 use crate::store::stored_block::unreadable;
-use crate::store::stored_file::file;
+use crate::store::stored_file::{file, source};
 use crate::store::{Content, Lease, NewContent, NewFile, StoreError};
 
 impl SqliteStore {
@@ -48,6 +49,25 @@ impl SqliteStore {
         .fetch_optional(&self.readers)
         .await?;
         row.map(|row| file(&self.local, id, &row, None)).transpose()
+    }
+
+    pub(in crate::store) async fn files_outside(
+        &self,
+        id: Uuid,
+    ) -> Result<Vec<(ResultFile, Source)>, StoreError> {
+        let rows = sqlx::query(
+            "SELECT name, cycle, media_type, bytes, sha256, damaged, place FROM result_files WHERE job_id = ? AND place IS NOT NULL",
+        )
+        .bind(id.to_string())
+        .fetch_all(&self.readers)
+        .await?;
+        let mut files = Vec::with_capacity(rows.len());
+        for row in &rows {
+            let entry = entry(row)?;
+            let source = source(&self.local, id, &entry, (row, None))?;
+            files.extend(source.map(|source| (entry, source)));
+        }
+        Ok(files)
     }
 
     pub(in crate::store) async fn mark_damaged(

@@ -11,6 +11,7 @@ use sqlx::{Sqlite, Transaction};
 
 use crate::queue::Transition;
 use crate::store::ending::EndingJob;
+use crate::store::local::log_lost_writes;
 use crate::store::rows::integer;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::blocks::insert_block;
@@ -33,7 +34,7 @@ impl SqliteStore {
         let held: Option<(i64, bool)> = sqlx::query_as(
             "UPDATE jobs SET last_write = ?1, progress = ?2, lease_expires_at = ?3, last_event = last_event + ?4, version = version + 1, \
              fruitless = iif(?5, 0, fruitless) \
-             WHERE id = ?6 AND lease = ?7 AND status = 'running' AND last_write < ?1 RETURNING last_event, cancel_requested",
+             WHERE id = ?6 AND lease = ?7 AND status = 'running' AND last_write = ?1 - 1 RETURNING last_event, cancel_requested",
         )
         .bind(update.number)
         .bind(serde_json::to_string(&update.progress)?)
@@ -45,7 +46,9 @@ impl SqliteStore {
         .fetch_optional(&mut *transaction)
         .await?;
         let Some((last_event, cancel_requested)) = held else {
-            return self.written_before(&mut transaction, lease).await;
+            return self
+                .written_before(&mut transaction, lease, update.number)
+                .await;
         };
         write_results(&mut transaction, lease, update).await?;
         if let Some(checkpoint) = &update.checkpoint {
@@ -61,23 +64,21 @@ impl SqliteStore {
         Ok(LeaseState::Held { cancel_requested })
     }
 
-    /// The state of the lease of a write that had no effect: it is a repeated one, or the lease was lost.
+    /// The state of the lease of a write that had no effect: it is a repeated one, or the lease was lost, as after a gap.
     async fn written_before(
         &self,
         transaction: &mut Transaction<'_, Sqlite>,
         lease: Lease,
+        number: i64,
     ) -> Result<LeaseState, StoreError> {
-        let cancel_requested: Option<bool> = sqlx::query_scalar(
-            "SELECT cancel_requested FROM jobs WHERE id = ? AND lease = ? AND status = 'running'",
+        let held: Option<(i64, bool)> = sqlx::query_as(
+            "SELECT last_write, cancel_requested FROM jobs WHERE id = ? AND lease = ? AND status = 'running'",
         )
         .bind(lease.job.to_string())
         .bind(lease.number)
         .fetch_optional(&mut **transaction)
         .await?;
-        Ok(match cancel_requested {
-            Some(cancel_requested) => LeaseState::Held { cancel_requested },
-            None => self.local.stale_write(),
-        })
+        Ok(self.local.written_before((lease, number), held))
     }
 
     pub(in crate::store) async fn renew(
@@ -150,7 +151,7 @@ impl SqliteStore {
         let lease = lease.into();
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let held: Option<(i64, bool, u32)> = sqlx::query_as(
-            "UPDATE jobs SET last_write = ?1, last_event = last_event + 1, version = version + 1 \
+            "UPDATE jobs SET last_write = ?1, last_event = last_event + 1, version = version + 1, fruitless = max(fruitless, 1) \
              WHERE id = ?2 AND lease = ?3 AND status = 'running' AND last_write < ?1 \
              RETURNING last_event, cancel_requested, attempts",
         )
@@ -160,7 +161,7 @@ impl SqliteStore {
         .fetch_optional(&mut *transaction)
         .await?;
         let Some((event, cancel_requested, attempt)) = held else {
-            return self.written_before(&mut transaction, lease).await;
+            return self.written_before(&mut transaction, lease, number).await;
         };
         checkpoints::delete_results_after(&mut transaction, lease.job, None).await?;
         insert_attempt_event(&mut transaction, lease.job, event, attempt, 0).await?;
@@ -187,7 +188,7 @@ impl SqliteStore {
     ) -> Result<Option<Status>, StoreError> {
         let mut transaction = self.writer.begin_with(BEGIN).await?;
         let held = sqlx::query_as(
-            "UPDATE jobs SET last_write = ?1 WHERE id = ?2 AND lease = ?3 AND status = 'running' AND last_write < ?1 \
+            "UPDATE jobs SET last_write = ?1 WHERE id = ?2 AND lease = ?3 AND status = 'running' AND last_write = ?1 - 1 \
              RETURNING fruitless, cancel_requested",
         )
         .bind(update.number)
@@ -226,18 +227,22 @@ impl SqliteStore {
         lease: Lease,
         number: i64,
     ) -> Result<Option<Status>, StoreError> {
-        let status: Option<String> = sqlx::query_scalar(
-            "SELECT status FROM jobs WHERE id = ? AND lease = ? AND last_write = ? AND status <> 'running'",
-        )
-        .bind(lease.job.to_string())
-        .bind(lease.number)
-        .bind(number)
-        .fetch_optional(&mut **transaction)
-        .await?;
-        if status.is_none() {
-            self.local.stale_write();
+        let before: Option<(String, i64)> =
+            sqlx::query_as("SELECT status, last_write FROM jobs WHERE id = ? AND lease = ?")
+                .bind(lease.job.to_string())
+                .bind(lease.number)
+                .fetch_optional(&mut **transaction)
+                .await?;
+        let before = before.and_then(|(status, last)| Some((Status::from_name(&status)?, last)));
+        match before {
+            Some((status, last)) if status != Status::Running && number == last => {
+                return Ok(Some(status));
+            }
+            Some((Status::Running, last)) if number > last => log_lost_writes(lease, number, last),
+            _ => {}
         }
-        Ok(status.as_deref().and_then(Status::from_name))
+        self.local.stale_write();
+        Ok(None)
     }
 
     pub(in crate::store) async fn is_final(

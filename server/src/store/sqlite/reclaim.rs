@@ -6,13 +6,14 @@ use api::job::Status;
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
-use crate::queue::Transition;
 use crate::store::ending::EndingJob;
+use crate::store::leases;
+use crate::store::leases::ENDED_BY_RESTORE;
 use crate::store::rows;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::queries::BEGIN;
 use crate::store::sqlite::transitions::end_job;
-use crate::store::{End, Reclaimed, StoreError};
+use crate::store::{Lease, Reclaimed, StoreError};
 
 /// Which running jobs are reclaimed.
 enum Lost {
@@ -36,10 +37,13 @@ impl SqliteStore {
         length: Duration,
         remote: Duration,
     ) -> Result<Reclaimed, StoreError> {
-        sqlx::query("UPDATE jobs SET lease_expires_at = ? WHERE status = 'running' AND is_remote")
-            .bind(self.local.clock.end_of(remote))
-            .execute(&self.writer)
-            .await?;
+        sqlx::query(
+            "UPDATE jobs SET lease_expires_at = ? WHERE status = 'running' AND is_remote AND lease_expires_at <> ?",
+        )
+        .bind(self.local.clock.end_of(remote))
+        .bind(ENDED_BY_RESTORE)
+        .execute(&self.writer)
+        .await?;
         let reason = "the service was ended while it ran";
         self.reclaim(Lost::OfLastProcess, length, reason).await
     }
@@ -52,30 +56,33 @@ impl SqliteStore {
     ) -> Result<Reclaimed, StoreError> {
         let now = self.local.clock.now();
         let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let lost: Vec<(Hyphenated, u32, bool)> = match lost {
+        let lost: Vec<(Hyphenated, u32, bool, i64)> = match lost {
             Lost::EndedBy(by) => sqlx::query_as(
-                "SELECT id, fruitless, cancel_requested FROM jobs INDEXED BY jobs_leased \
+                "SELECT id, fruitless, cancel_requested, lease_expires_at FROM jobs INDEXED BY jobs_leased \
                  WHERE status = 'running' AND lease_expires_at <= ?",
             )
             .bind(by),
             Lost::OfLastProcess => sqlx::query_as(
-                "SELECT id, fruitless, cancel_requested FROM jobs WHERE status = 'running' AND NOT is_remote",
-            ),
+                "SELECT id, fruitless, cancel_requested, lease_expires_at FROM jobs \
+                 WHERE status = 'running' AND (NOT is_remote OR lease_expires_at = ?)",
+            )
+            .bind(ENDED_BY_RESTORE),
         }
         .fetch_all(&mut *transaction)
         .await?;
-        let end = End::without_result(Transition::WorkerLost, reason);
         let (mut queued, mut ending) = (Vec::new(), Vec::new());
-        for (id, fruitless, cancel_requested) in lost {
+        for (id, fruitless, cancel_requested, ended_at) in lost {
             let id = Uuid::from(id);
+            let end = leases::reclaim(ended_at, reason);
             let job = EndingJob::running(id, fruitless, self.local.attempt_limit, cancel_requested);
             if job.after(end.transition).is_some_and(Status::is_terminal) {
                 // Nothing is solved under the new lease, which this process holds.
                 let row = sqlx::query(
-                    "UPDATE jobs SET lease = lease + 1, lease_expires_at = ?, last_write = 0, worker = NULL, claim_number = NULL, \
+                    "UPDATE jobs SET lease = lease + ?, lease_expires_at = ?, last_write = 0, worker = NULL, claim_number = NULL, \
                      is_remote = 0 WHERE id = ? \
                      RETURNING lease, spec, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
                 )
+                .bind(Lease::step())
                 .bind(self.local.clock.end_of(length))
                 .bind(id.to_string())
                 .fetch_one(&mut *transaction)

@@ -92,11 +92,7 @@ async fn a_large_checkpoint_is_an_object_which_the_next_attempt_asks_for(databas
         cycle: 9,
         state: vec![1, 2, 3],
     };
-    let update = JobUpdate {
-        number: 2,
-        ..update_with(small.clone())
-    };
-    store.record_next(&claim, &update).await;
+    store.record_next(&claim, &update_with(small.clone())).await;
     assert_eq!(store.checkpoint(&claim).await.expect("the store"), None);
     let claim = database.released(&claim).await;
     assert_eq!(claim.checkpoint, Some(ClaimedCheckpoint::Given(small)));
@@ -173,10 +169,10 @@ async fn an_object_that_is_being_written_is_not_removed(database: WithObjects) {
 async fn a_checkpoint_whose_object_may_be_removed_is_in_the_database(database: WithObjects) {
     let claim = database.running().await;
     let late = JobUpdate {
-        number: 1,
         checkpoint_object: Some("checkpoints/removed".to_owned()),
         ..update_with(large(7))
     };
+    let late = numbered(&claim, late);
     let length = Duration::from_hours(1);
     let written = database.store.write_update((&claim).into(), &late, length);
     written.await.expect("the store");
@@ -195,10 +191,7 @@ async fn nothing_is_written_to_a_store_of_objects_that_has_lost_its_mark(databas
     std::fs::rename(&folder, place.folder.path().join("unmounted")).expect("renamed");
     let store = Arc::new(opened(&place, Some("objects")).await.expect("a store"));
     let database = WithObjects { place, store };
-    let update = JobUpdate {
-        number: 2,
-        ..update_with(large(9))
-    };
+    let update = numbered(&claim, update_with(large(9)));
     let length = Duration::from_hours(1);
     let written = database.store.record(&claim, &update, length).await;
     assert!(
@@ -251,11 +244,7 @@ async fn a_copy_of_a_database_of_a_server_removes_no_objects_and_writes_no_check
         place: copy,
     };
     assert!(!copy.store.removes_objects().await.expect("the store"));
-    let update = JobUpdate {
-        number: 2,
-        ..update_with(large(9))
-    };
-    copy.store.record_next(&claim, &update).await;
+    copy.store.record_next(&claim, &update_with(large(9))).await;
     copy.moved().await;
     let found = original.checkpoint(&claim).await.expect("the store");
     assert_eq!(found, Some(large(7)));

@@ -45,7 +45,7 @@ async fn writes_that_meet_are_whole(fixture: Fixture) {
     let claims = claimed(&fixture).await;
     let mut recording = JoinSet::new();
     for (cycle, claim) in (1..).zip(&claims) {
-        let update = numbered(update(cycle));
+        let update = numbered(claim, update(cycle));
         let store = Arc::clone(&fixture.store);
         recording.spawn(recorded_twice(store, claim.clone(), update));
     }
@@ -63,7 +63,7 @@ async fn writes_that_meet_are_whole(fixture: Fixture) {
             _ => Transition::Succeed,
         };
         ending.spawn(async move {
-            let update = numbered(update(100));
+            let update = numbered(&claim, update(100));
             let first = store.end(&claim, &update, &end(transition)).await;
             let again = store.end(&claim, &update, &end(transition)).await;
             assert_eq!(
@@ -108,7 +108,7 @@ async fn a_write_that_cannot_be_stored_fails_alone() {
     let claims = claimed(&fixture).await;
     let mut recording = JoinSet::new();
     for (number, claim) in claims.iter().enumerate() {
-        let mut update = numbered(update(1));
+        let mut update = numbered(claim, update(1));
         if number == 7 {
             update.events[0].1 = "\0".to_owned();
         }
@@ -140,7 +140,7 @@ async fn a_write_to_a_locked_job_holds_up_no_other() {
     let mut recording = JoinSet::new();
     for (number, claim) in claims.iter().enumerate() {
         let (store, claim) = (Arc::clone(&fixture.store), claim.clone());
-        let update = numbered(update(1));
+        let update = numbered(&claim, update(1));
         recording.spawn(async move { (number, recorded_twice(store, claim, update).await) });
     }
     for _ in 1..JOBS {

@@ -12,7 +12,9 @@ use super::{Employer, EmployerError};
 use crate::metrics::Busy;
 use crate::queue::Transition;
 use crate::solve::checkpoint::EncodedCheckpoint;
-use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, Store, StoreError};
+use crate::store::{
+    Claim, ClaimRequest, End, IntegrityError, JobUpdate, Lease, LeaseState, Store, StoreError,
+};
 use crate::worker::computed::Computed;
 use crate::worker::manifest::{Documents, make_documents};
 
@@ -26,7 +28,7 @@ impl Employer for Store {
             self.disk().release_after(error);
         })?;
         for claim in &claims {
-            self.metrics().claimed(claim.lease == 1, claim.waited_ms);
+            self.metrics().claimed(claim.is_first(), claim.waited_ms);
         }
         Ok(claims)
     }
@@ -108,6 +110,15 @@ async fn stored_documents(
     make_documents(folder, (lease.job, spec), summary, computed).await
 }
 
+/// Marks the files of a job that has ended without success and that do not exist.
+async fn mark_missing(store: &Store, lease: Lease) -> Result<(), StoreError> {
+    let how = IntegrityError::Missing.to_string();
+    for name in store.missing_files(lease).await? {
+        store.mark_damaged(lease.job, &name, Some(&how)).await?;
+    }
+    Ok(())
+}
+
 /// Ends a job, with documents of all results in the same transaction, or returns it to the queue.
 ///
 /// # Errors
@@ -125,6 +136,13 @@ async fn finish(
         block: update.block.clone(),
         ..JobUpdate::default()
     };
+    if end.transition == Transition::Succeed {
+        let missing = store.missing_files(lease).await?;
+        // Of a lost lease or a repeated end, the end below says what it has led to.
+        if !missing.is_empty() && store.lease_state(lease).await? != LeaseState::Lost {
+            return store.solve_again(lease, &last, &missing).await;
+        }
+    }
     if last.block.is_none() {
         let LeaseState::Held { cancel_requested } = store.lease_state(lease).await? else {
             // It was lost, or this end is a repeated one.
@@ -143,6 +161,12 @@ async fn finish(
     }
     let status = store.end(lease, &last, end).await?;
     // The job has ended: an error here would make its worker end it again.
+    if status.is_some_and(Status::is_terminal)
+        && end.transition != Transition::Succeed
+        && let Err(error) = mark_missing(store, lease).await
+    {
+        tracing::warn!(%error, job = %lease.job, "missing files were not marked");
+    }
     if let Err(error) = store.remove_unnamed_files(Some(lease)).await {
         tracing::warn!(%error, job = %lease.job, "files that no manifest names were not removed");
     }

@@ -150,14 +150,10 @@ async fn repeated_claim(employer: &impl Employer, service: &Service) {
     let asked = request(i64::MAX, LENGTH);
     let once = employer.claim(&asked).await.expect("an answer");
     let again = employer.claim(&asked).await.expect("an answer");
-    let ids = |claims: &[Claim]| {
-        claims
-            .iter()
-            .map(|c| (c.id, c.lease, c.attempt))
-            .collect::<Vec<_>>()
-    };
-    assert_eq!(ids(&once), [(first, 1, 1)]);
+    let ids = |claims: &[Claim]| claims.iter().map(|c| (c.id, c.attempt)).collect::<Vec<_>>();
+    assert_eq!(ids(&once), [(first, 1)]);
     assert_eq!(ids(&again), ids(&once));
+    assert_eq!(again[0].lease, once[0].lease);
     let next = ClaimRequest {
         request: crate::store::RequestNumber {
             number: 2,
@@ -166,7 +162,7 @@ async fn repeated_claim(employer: &impl Employer, service: &Service) {
         ..asked
     };
     let next = employer.claim(&next).await.expect("an answer");
-    assert_eq!(ids(&next), [(second, 1, 1)]);
+    assert_eq!(ids(&next), [(second, 1)]);
 }
 
 async fn repeated_update(employer: &impl Employer, service: &Service) {
@@ -289,7 +285,7 @@ async fn lost(employer: &impl Employer, service: &Service) {
     store.renew(lost, Duration::ZERO).await.expect("the store");
     store.reclaim_expired(LENGTH).await.expect("the store");
     let fresh = Lease::from(&claimed(employer).await);
-    assert_eq!(fresh.number, lost.number + 1);
+    assert!(fresh.number > lost.number);
     let recorded = employer.record(lost, &update(1, 5), LENGTH).await;
     assert_eq!(recorded.expect("an answer"), LeaseState::Lost);
     assert_eq!(

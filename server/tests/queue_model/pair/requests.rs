@@ -52,7 +52,8 @@ impl Pair {
             job.apply(Transition::Claim);
             job.attempts += 1;
             job.fruitless += 1;
-            job.lease += 1;
+            prop_assert!(claim.lease > job.lease);
+            job.lease = claim.lease;
             job.events += 1;
             job.expires_at = self.now + LEASE_MS;
             job.rows = job.checkpoint;
@@ -74,14 +75,14 @@ impl Pair {
         checkpoint: bool,
         times: usize,
     ) -> TestCaseResult {
-        self.number += 1;
         let Some((claim, index, held)) = self.claimed(claim) else {
             return Ok(());
         };
+        let number = self.next_write(&claim);
         let job = &mut self.jobs[index];
         let cycle = job.rows + 1;
         let update = JobUpdate {
-            number: self.number,
+            number,
             rows: vec![row(cycle)],
             events: vec![(EventName::Cycle, "{}".to_owned())],
             checkpoint: checkpoint.then(|| EncodedCheckpoint {
@@ -106,6 +107,34 @@ impl Pair {
         Ok(())
     }
 
+    /// An update after one that the database has lost, and an end after it: neither has an effect.
+    pub(super) async fn record_after_gap(&mut self, claim: usize) -> TestCaseResult {
+        let Some((claim, index, _)) = self.claimed(claim) else {
+            return Ok(());
+        };
+        let number = 2 + self
+            .writes
+            .get(&(&claim).into())
+            .copied()
+            .unwrap_or_default();
+        let update = JobUpdate {
+            number,
+            rows: vec![row(self.jobs[index].rows + 2)],
+            ..JobUpdate::default()
+        };
+        let recorded = self.store.record(&claim, &update, LEASE).await;
+        prop_assert_eq!(recorded.expect("the store"), LeaseState::Lost);
+        let end = End {
+            transition: Transition::Succeed,
+            reason: None,
+            outcome: None,
+            summary: None,
+        };
+        let ended = self.store.end(&claim, &update, &end).await;
+        prop_assert_eq!(ended.expect("the store"), None);
+        Ok(())
+    }
+
     pub(super) async fn renew(&mut self, claim: usize) -> TestCaseResult {
         let Some((claim, index, held)) = self.claimed(claim) else {
             return Ok(());
@@ -123,18 +152,19 @@ impl Pair {
     }
 
     pub(super) async fn restart(&mut self, claim: usize, times: usize) -> TestCaseResult {
-        self.number += 1;
         let Some((claim, index, held)) = self.claimed(claim) else {
             return Ok(());
         };
+        let number = self.next_write(&claim);
         let job = &mut self.jobs[index];
         for _ in 0..times {
-            let answer = self.store.restart(&claim, self.number).await;
+            let answer = self.store.restart(&claim, number).await;
             let answer = answer.expect("the store");
             prop_assert_eq!(answer, expected(held, job.cancel_requested));
         }
         if held {
             (job.rows, job.checkpoint) = (0, 0);
+            job.fruitless = job.fruitless.max(1);
             job.events += 1;
         }
         Ok(())
@@ -146,10 +176,10 @@ impl Pair {
         transition: Transition,
         times: usize,
     ) -> TestCaseResult {
-        self.number += 1;
         let Some((claim, index, held)) = self.claimed(claim) else {
             return Ok(());
         };
+        let number = self.next_write(&claim);
         let end = End {
             transition,
             reason: None,
@@ -157,7 +187,7 @@ impl Pair {
             summary: None,
         };
         let update = JobUpdate {
-            number: self.number,
+            number,
             ..JobUpdate::default()
         };
         let mut answers = Vec::new();

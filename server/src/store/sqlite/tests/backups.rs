@@ -6,9 +6,10 @@ use std::time::Duration;
 use crate::export::documents::VTU;
 use crate::export::files;
 use crate::store::sqlite::backup::{copy_database, copy_named_files};
-use crate::store::tests::{Fixture, with_checkpoint};
+use crate::store::tests::{Fixture, numbered, update, with_checkpoint};
 use crate::store::{
-    BackupError, Claim, JobUpdate, NewContent, NewFile, Store, backup, restore, verify,
+    BackupError, Claim, JobUpdate, Lease, LeaseState, NewContent, NewFile, Store, backup, restore,
+    verify,
 };
 
 /// Writes a file of an attempt; returns the update that names it.
@@ -55,6 +56,53 @@ async fn a_backup_is_consistent_although_jobs_are_deleted_and_restarted_meanwhil
     let claim = copy.claim_next(i64::MAX).await.expect("a job");
     assert_eq!((claim.id, claim.checkpoint), (running, None));
     assert_eq!(copy.manifest(running).await.expect("the store"), []);
+}
+
+/// The worker of the job goes on, and its service is that of the copy from some time on.
+#[tokio::test]
+async fn the_leases_of_a_restored_database_have_ended_for_the_workers_of_its_original() {
+    let fixture = Fixture::new().await;
+    let store = &fixture.store;
+    let running = fixture.queued().await;
+    let claim = fixture.claimed(i64::MAX).await;
+    let first = numbered(&claim, with_file(store, &claim));
+    let length = Duration::from_hours(1);
+    store
+        .record(&claim, &first, length)
+        .await
+        .expect("recorded");
+    let into = fixture.folder.path().join("backup");
+    backup(&fixture.url, &into).await.expect("a backup");
+    store.record_next(&claim, &update(5)).await;
+
+    let served = [
+        into.join("fretwear.db"),
+        fixture.folder.path().join("restored.db"),
+    ];
+    let url = |path: &Path| format!("sqlite://{}", path.display());
+    restore(&into, &url(&served[1])).await.expect("restored");
+    for path in served {
+        let copy = Store::open(&url(&path)).await.expect("a store");
+        for number in [2, 3] {
+            let late = JobUpdate {
+                number,
+                ..update(7)
+            };
+            let recorded = copy.record(&claim, &late, length).await;
+            assert_eq!(recorded.expect("the store"), LeaseState::Lost);
+        }
+        let reclaimed = copy.reclaim_at_start(length, length).await;
+        assert_eq!(reclaimed.expect("the store").queued, 1);
+        let next = copy.claim_next(i64::MAX).await.expect("a job");
+        assert_eq!((next.id, next.attempt), (running, 1));
+        assert_eq!(next.checkpoint.map(|found| found.cycle()), Some(3));
+        assert_ne!(next.lease, claim.lease);
+        let recorded = copy.record(&claim, &first, length).await;
+        assert_eq!(recorded.expect("the store"), LeaseState::Lost);
+        let missing = copy.missing_files(Lease::from(&claim)).await;
+        assert_eq!(missing.expect("the store"), [""; 0]);
+        copy.close().await;
+    }
 }
 
 #[tokio::test]

@@ -91,7 +91,7 @@ async fn a_damaged_file_is_a_problem_and_is_marked_until_it_is_restored() {
     let id = service.with_files().await;
     let own = format!("/v1/jobs/{id}/results");
     let path = format!("{own}/files/fields-20.vtu");
-    let stored = service.results_folder().join(&id).join("1/fields-20.vtu");
+    let stored = service.large_result(&id, "fields-20.vtu");
     let overwritten = FIELDS.to_uppercase();
     for (damage, words) in [
         (Some(overwritten.as_str()), "it has the SHA-256 "),
@@ -134,7 +134,7 @@ async fn the_last_chunk_of_a_large_file_is_sent_only_if_all_of_it_is_right() {
     let path = format!("{own}/files/fields-20.vtu");
     assert!(service.bytes("GET", &path, &[], "").await.2 == content);
     content[5] = b'1';
-    let stored = service.results_folder().join(&id).join("1/fields-20.vtu");
+    let stored = service.large_result(&id, "fields-20.vtu");
     std::fs::write(&stored, &content).expect("written");
     for path in [&path, &format!("{own}/archive")] {
         let request = Request::get(path).header("host", "127.0.0.1");
