@@ -54,6 +54,7 @@ mod readme_commands;
 mod refused_specifications;
 mod remote_workers;
 mod replayed_events;
+mod restored_beside_workers;
 mod result_files;
 mod retry;
 mod second_server;

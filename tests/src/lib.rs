@@ -10,6 +10,7 @@ pub mod disk;
 mod haproxy;
 mod network;
 mod postgres;
+mod postgres_dump;
 mod postgres_standby;
 mod postgres_tls;
 pub mod program;

@@ -186,9 +186,15 @@ impl Employer for Remote {
         update: &JobUpdate,
         length: Duration,
     ) -> Result<LeaseState, EmployerError> {
+        let update = match self.put_files(lease, update).await {
+            Err(EmployerError::Remote(error)) if error.is_of_type("/problems/lease-lost") => {
+                return Ok(self.answered(lease, LeaseState::Lost));
+            }
+            sent => sent?,
+        };
         let write = Write {
             lease,
-            update: self.put_files(lease, update).await?,
+            update,
             kind: WriteKind::Renew(length),
         };
         match self.write(write).await? {
