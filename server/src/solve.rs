@@ -25,6 +25,7 @@ use crate::spec::scatter::FollowsProduct;
 use checkpoint::{Checkpoint, CheckpointPolicy, EncodedCheckpoint};
 use cost::Stopwatch;
 pub use cost::{children_cpu_s, cpu_s, thread_cpu_s};
+pub(crate) use process::LINE_LIMIT;
 pub use protocol::{Failure, FieldsFile, Line};
 
 /// What is solved.

@@ -89,6 +89,7 @@ mod rows;
 mod sqlite;
 mod stored_block;
 mod stored_file;
+mod update_fault;
 mod updates;
 mod verification;
 mod verified;
@@ -119,6 +120,7 @@ pub use operations::{Store, shown_address};
 pub use results::{Chunks, Content, ContentError, NewContent, NewFile, SnapshotPart, StoredEvent};
 pub use sqlite::OWNER_HEARTBEAT;
 pub use sqlite::backup::{backup, restore};
+pub use update_fault::UpdateFault;
 pub use verify::verify;
 pub use workers::{WorkerContact, WorkerOffer};
 

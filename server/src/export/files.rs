@@ -106,9 +106,14 @@ pub fn create_folder(folder: &Path) -> std::io::Result<()> {
     }
 }
 
-/// Whether a text is the name of a file, and not a path out of its folder.
+/// Longest name of a file, bytes: file systems of Linux have 255, and a file has a longer name while it is written.
+const LONGEST_NAME: usize = 200;
+
+/// Checks whether a text is the name of a file on any system, and not a path out of its folder.
 pub fn is_plain_name(name: &str) -> bool {
-    Path::new(name).file_name() == Some(name.as_ref()) && !name.contains('\0')
+    let is_separator = |c: char| c.is_control() || "/\\:".contains(c);
+    let is_folder = ["", ".", ".."].contains(&name);
+    !is_folder && name.len() <= LONGEST_NAME && !name.contains(is_separator)
 }
 
 /// The folder that contains a file.

@@ -90,14 +90,14 @@ mod tests {
     fn neither_single_bytes_nor_a_fast_start_keep_a_body_from_being_late() {
         let began = Instant::now();
         let rate = usize::try_from(RATE).expect("a number");
-        let mut body = Arrival::new(BodyKind::User, began);
+        let mut body = Arrival::new(BodyKind::Document, began);
         for second in 1..5 {
             body.arrived(1, began + seconds(second));
         }
         assert!(!body.is_late(began + seconds(4)));
         assert!(body.is_late(began + seconds(6)));
 
-        let mut body = Arrival::new(BodyKind::User, began);
+        let mut body = Arrival::new(BodyKind::Document, began);
         body.arrived(100 * rate, began + seconds(1));
         assert_eq!(body.due(), began + seconds(1));
         assert!(body.is_late(began + seconds(6)));

@@ -233,7 +233,7 @@ mod tests {
     async fn a_body_that_does_not_arrive_times_out() {
         let mut body = arriving(endless(), BodyKind::File, TIMEOUT);
         assert!(matches!(body.chunk().await, Err(BodyError::Slow)));
-        let body = arriving(endless(), BodyKind::User, TIMEOUT);
+        let body = arriving(endless(), BodyKind::Document, TIMEOUT);
         let received = body.into_memory().await;
         let error = received.expect_err("it never arrives");
         let response = ProblemResponse::from(error).into_response();
@@ -242,7 +242,7 @@ mod tests {
 
     #[tokio::test]
     async fn what_has_arrived_is_received_however_late_it_is() {
-        let body = arriving(Body::from("{}"), BodyKind::User, 2 * TIMEOUT);
+        let body = arriving(Body::from("{}"), BodyKind::Document, 2 * TIMEOUT);
         let (bytes, _) = body.into_memory().await.expect("it is there");
         assert_eq!(bytes, "{}");
     }

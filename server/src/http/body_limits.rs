@@ -1,23 +1,27 @@
-//! Limits of the bodies of requests, by who sends them.
+//! Limits of the bodies of requests, by what they contain.
 
-use crate::http::access::WORKER_FOLDER;
-use crate::http::worker_body;
+use crate::solve::LINE_LIMIT;
 
-/// Maximum size of the body of a user's request, bytes.
+/// Maximum size of a document, bytes.
 pub(super) const MAX_BODY_BYTES: usize = 1 << 20;
+/// Maximum size of writes of a worker, bytes: it sends an update once it has 16 MiB, and the last line of it may be as long as any of a
+/// solving process.
+const MAX_WRITES_BYTES: usize = (32 << 20) + LINE_LIMIT;
+/// Path of the writes of remote workers.
+const WRITES: &str = "/v1/worker/writes";
 /// Folder of the files that remote workers send.
 const FILE_FOLDER: &str = "/v1/worker/files/";
 /// Maximum size of a file, bytes: twice the largest estimated output of a job, all files together.
 const MAX_FILE_BYTES: u64 = 8_000_000_000;
 
-/// Who sends a body, and what is done with it.
+/// Content of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum BodyKind {
-    /// A user: it is received into memory.
-    User,
-    /// A remote worker: the same.
-    Worker,
-    /// A remote worker: it is written to the disk while it arrives.
+    /// A document of a user, or a small one of a worker: it is received into memory.
+    Document,
+    /// Writes of a remote worker: they are received into memory.
+    Writes,
+    /// A file of a remote worker: it is written to the disk while it arrives.
     File,
 }
 
@@ -37,26 +41,26 @@ impl BodyKind {
     pub(super) fn of(path: &str) -> Self {
         if path.starts_with(FILE_FOLDER) {
             Self::File
-        } else if path.starts_with(WORKER_FOLDER) {
-            Self::Worker
+        } else if path == WRITES {
+            Self::Writes
         } else {
-            Self::User
+            Self::Document
         }
     }
 
     /// The limits of this kind.
     pub(super) fn limits(self) -> BodyLimits {
         match self {
-            Self::User => BodyLimits {
+            Self::Document => BodyLimits {
                 body: MAX_BODY_BYTES as u64,
                 memory_of_peer: 64 << 20,
                 memory: 128 << 20,
             },
             // Many workers may have one address: that of their network.
-            Self::Worker => BodyLimits {
-                body: worker_body::MAX_BYTES as u64,
-                memory_of_peer: worker_body::MAX_BYTES,
-                memory: 2 * worker_body::MAX_BYTES,
+            Self::Writes => BodyLimits {
+                body: MAX_WRITES_BYTES as u64,
+                memory_of_peer: MAX_WRITES_BYTES,
+                memory: 2 * MAX_WRITES_BYTES,
             },
             Self::File => BodyLimits {
                 body: MAX_FILE_BYTES,
@@ -73,7 +77,7 @@ mod tests {
 
     #[test]
     fn every_body_that_is_not_too_large_fits_into_memory_alone() {
-        for kind in [BodyKind::User, BodyKind::Worker] {
+        for kind in [BodyKind::Document, BodyKind::Writes] {
             let limits = kind.limits();
             assert!(u64::try_from(limits.memory_of_peer).is_ok_and(|m| m >= limits.body));
             assert!(limits.memory >= limits.memory_of_peer);

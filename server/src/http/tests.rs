@@ -124,6 +124,20 @@ impl Service {
         self.send("PUT", path, &[], body).await.0
     }
 
+    /// The same with a token, or without one.
+    pub(crate) async fn with_token(
+        &self,
+        (method, path): (&str, &str),
+        token: Option<&str>,
+        body: &str,
+    ) -> (u16, Value) {
+        let bearer = token.map(|token| format!("Bearer {token}"));
+        let mut headers = vec![("content-type", "application/json")];
+        headers.extend(bearer.iter().map(|value| ("authorization", value.as_str())));
+        let (status, _, answer) = self.send(method, path, &headers, body).await;
+        (status.as_u16(), answer)
+    }
+
     /// Queues a job and returns its id.
     pub(crate) async fn queued(&self, spec: &str) -> String {
         let (status, _, job) = self.post("/v1/jobs", spec).await;

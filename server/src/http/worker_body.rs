@@ -1,13 +1,10 @@
-//! Bodies of remote workers: JSON as others, but of any length that a solving process can write.
+//! Bodies of remote workers: JSON without a schema for users.
 
 use axum::extract::{FromRequest, Request};
 use serde::de::DeserializeOwned;
 
 use crate::http::extract::received;
 use crate::http::problem::{ProblemResponse, ProblemType};
-
-/// Largest body, bytes: an update is sent once it has 16 MiB, its last line may have 256.
-pub(super) const MAX_BYTES: usize = 512 << 20;
 
 /// A body of a worker.
 #[derive(Debug)]

@@ -25,7 +25,7 @@ use crate::solve::protocol::{COMMAND, Input};
 pub(crate) const NAME: &str = "fretwear";
 /// Longest line of a solving process, bytes: several times a snapshot with the largest allowed number of surface
 /// elements.
-const LINE_LIMIT: usize = 256 << 20;
+pub(crate) const LINE_LIMIT: usize = 256 << 20;
 /// Longest line on its standard error, bytes; longer ones are dropped.
 const STDERR_LINE_LIMIT: usize = 64 << 10;
 /// Longest time between the end of a process's output and its exit.

@@ -14,7 +14,7 @@ use serde_json::value::RawValue;
 use solver::record::CycleReport;
 
 use crate::export::documents::JSON;
-use crate::export::files::manifest_entry;
+use crate::export::files::{is_plain_name, manifest_entry};
 use crate::store::compression::{compress, decompress};
 use crate::store::{IntegrityError, SnapshotPart, integrity};
 
@@ -76,12 +76,22 @@ pub struct EncodedBlock {
 }
 
 impl EncodedBlock {
-    /// Checks that its entries can be read.
+    /// Checks that its entries can be read, are those of a block by itself, and have plain names, which it lists.
     ///
     /// # Errors
-    /// [`BlockError::Entries`].
+    /// [`BlockError`].
     pub fn check(&self) -> Result<(), BlockError> {
-        Block::listed(&self.entries).map(drop)
+        let block = Block::decode(&self.entries, &[])?;
+        let is_foreign =
+            |entry: &&Entry| entry.kind.is_behind() || !is_plain_name(&entry.file.name);
+        if let Some(entry) = block.entries.iter().find(is_foreign) {
+            return Err(BlockError::Foreign(entry.file.name.clone()));
+        }
+        let names: Vec<_> = block.documents().map(|file| &file.name).collect();
+        if names != self.documents.iter().collect::<Vec<_>>() {
+            return Err(BlockError::Documents);
+        }
+        Ok(())
     }
 }
 
@@ -91,6 +101,12 @@ pub enum BlockError {
     /// The entries are damaged.
     #[error("its entries cannot be read: {0}")]
     Entries(#[from] serde_json::Error),
+    /// An entry is that of an object, or has a name that is none.
+    #[error("`{0}` is no entry of a block")]
+    Foreign(String),
+    /// The names of its documents are others.
+    #[error("its documents are not those that it lists")]
+    Documents,
     /// Its history or its snapshots are damaged.
     #[error("{what}: {cause}")]
     Damaged {

@@ -25,6 +25,9 @@ pub struct ClaimRequest {
     pub capacity: Capacity,
     /// Length of the leases.
     pub lease: Duration,
+    /// The token with which it is asked, which owns the leases; the worker itself does not say it.
+    #[serde(skip)]
+    pub token: Option<Uuid>,
 }
 
 /// The number of a worker's request.

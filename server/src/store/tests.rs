@@ -47,6 +47,7 @@ mod objects;
 mod order;
 mod pages;
 mod roles;
+mod tokens;
 mod verification;
 mod workers;
 mod writes;
@@ -155,6 +156,7 @@ pub(crate) fn request(memory_mb: i64, lease: Duration) -> ClaimRequest {
             ahead_ms: 0,
         },
         lease,
+        token: None,
     }
 }
 

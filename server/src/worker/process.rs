@@ -157,6 +157,7 @@ impl WorkerProcess {
                 ahead_ms: i64::try_from(config.ahead.as_millis()).unwrap_or(i64::MAX),
             },
             lease: config.lease,
+            token: None,
         }
     }
 

@@ -60,6 +60,9 @@ pub struct LeasesBody {
     pub failing: Option<String>,
 }
 
+/// Largest number of leases in a heartbeat; a worker with more sends several. Arbitrary: a slot holds one job, and short ones ahead.
+pub const MOST_LEASES: usize = 4096;
+
 /// Largest number of writes in a request.
 pub const MOST_WRITES: usize = 256;
 

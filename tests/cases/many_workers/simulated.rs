@@ -155,6 +155,7 @@ impl Simulated {
                 ahead_ms: 0,
             },
             lease: self.harm.lease(),
+            token: None,
         };
         let (began, remote) = (Instant::now(), Arc::clone(&self.remote));
         let claims = self.answered(|| remote.claim(&request)).await;

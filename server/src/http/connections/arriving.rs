@@ -167,10 +167,10 @@ mod tests {
         let connections = Connections::new(LIMITS);
         let [first, second] = [0, 1].map(|number| connection(&connections, number, 1));
         let other = connection(&connections, 2, 2);
-        let most = BodyKind::User.limits().memory_of_peer;
-        let first = first.body_behind(seconds(2), BodyKind::User);
-        let second = second.body_behind(seconds(3), BodyKind::User);
-        let other = other.body_behind(seconds(9), BodyKind::User);
+        let most = BodyKind::Document.limits().memory_of_peer;
+        let first = first.body_behind(seconds(2), BodyKind::Document);
+        let second = second.body_behind(seconds(3), BodyKind::Document);
+        let other = other.body_behind(seconds(9), BodyKind::Document);
         assert_eq!(other.arrived(1, most), Ok(()));
         assert_eq!(first.arrived(1, most - 9), Ok(()));
         assert_eq!(second.arrived(1, 9), Ok(()));
@@ -185,9 +185,9 @@ mod tests {
     fn of_bodies_that_arrive_at_once_the_latest_is_received() {
         let connections = Connections::new(LIMITS);
         let [first, second] = [0, 1].map(|number| connection(&connections, number, 1));
-        let most = BodyKind::User.limits().memory_of_peer;
-        let second = second.body_behind(Duration::from_millis(10), BodyKind::User);
-        let first = first.body_behind(Duration::from_millis(20), BodyKind::User);
+        let most = BodyKind::Document.limits().memory_of_peer;
+        let second = second.body_behind(Duration::from_millis(10), BodyKind::Document);
+        let first = first.body_behind(Duration::from_millis(20), BodyKind::Document);
         assert_eq!(second.arrived(1, 1), Ok(()));
         // The service has read from the first one after it has read from the second one.
         assert_eq!(first.arrived(1 << 20, most), Err(GaveWay));
@@ -198,27 +198,28 @@ mod tests {
     fn a_complete_body_never_gives_way_and_counts_until_its_request_has_ended() {
         let connections = Connections::new(LIMITS);
         let [first, second] = [0, 1].map(|number| connection(&connections, number, 1));
-        let most = BodyKind::User.limits().memory_of_peer;
-        let complete = first.body_behind(seconds(9), BodyKind::User);
+        let most = BodyKind::Document.limits().memory_of_peer;
+        let complete = first.body_behind(seconds(9), BodyKind::Document);
         assert_eq!(complete.arrived(1, most), Ok(()));
         complete.complete();
-        let refused = second.body(BodyKind::User);
+        let refused = second.body(BodyKind::Document);
         assert_eq!(refused.arrived(1, 1), Err(GaveWay));
         assert!(!complete.give_way.is_cancelled());
         drop((complete, refused));
-        assert_eq!(second.body(BodyKind::User).arrived(1, 1), Ok(()));
+        assert_eq!(second.body(BodyKind::Document).arrived(1, 1), Ok(()));
     }
 
     #[test]
     fn all_peers_together_have_a_limit_of_their_own() {
         let connections = Connections::new(LIMITS);
-        let limits = BodyKind::User.limits();
+        let limits = BodyKind::Document.limits();
         let peers = limits.memory / limits.memory_of_peer;
         let bodies: Vec<_> = (0..=peers)
             .map(|number| {
                 let peer = u8::try_from(number).expect("few");
                 let behind = seconds(10 - u64::from(peer));
-                connection(&connections, u64::from(peer), peer).body_behind(behind, BodyKind::User)
+                connection(&connections, u64::from(peer), peer)
+                    .body_behind(behind, BodyKind::Document)
             })
             .collect();
         for body in &bodies {
@@ -234,11 +235,11 @@ mod tests {
         let connections = Connections::new(LIMITS);
         let [slow, other] = [0, 1].map(|number| connection(&connections, number, 1));
         let _requests = [slow.request(), other.request()];
-        let body = slow.body(BodyKind::User);
+        let body = slow.body(BodyKind::Document);
         let peer = IpAddr::from([10, 0, 0, 1]);
         assert!(connections.add(2, peer).is_none(), "it is not late yet");
         drop(body);
-        let body = slow.body_behind(seconds(6), BodyKind::User);
+        let body = slow.body_behind(seconds(6), BodyKind::Document);
         let _new = connections.add(3, peer).expect("room");
         assert!(slow.close.is_cancelled() && !other.close.is_cancelled());
         assert_eq!(body.arrived(1, 1), Err(GaveWay));

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use api::job::Status;
+use uuid::Uuid;
 
 use crate::queue::Transition;
 use crate::store::checkpoints::CheckpointObject;
@@ -29,12 +30,18 @@ operations! {
     /// The object with the checkpoint of a held job; `None` if it has none, or if the lease was lost.
     pub(in crate::store) async fn checkpoint_object(&self, lease: Lease) -> Result<Option<CheckpointObject>, StoreError>;
 
-    /// The states of the leases of a worker, renewed for a length where more than a third of it has passed: a heartbeat that comes
-    /// often, for the sake of cancel requests, writes seldom.
+    /// Those leases that jobs were claimed under with a token, or by a remote worker without one: the service required none then.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn heartbeat(&self, leases: &[Lease], length: Duration) -> Result<Vec<LeaseState>, StoreError>;
+    pub async fn owned(&self, token: Uuid, leases: &[Lease]) -> Result<Vec<Lease>, StoreError>;
+
+    /// The states of the leases of a worker, renewed for a length where more than a third of it has passed: a heartbeat that comes often, for
+    /// the sake of cancel requests, writes seldom. With a token, those that it does not own are lost.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn heartbeat(&self, leases: &[Lease], length: Duration, token: Option<Uuid>) -> Result<Vec<LeaseState>, StoreError>;
 
     /// Renews the lease: the worker's heartbeat.
     ///

@@ -64,11 +64,11 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn revoke_worker_token(&self, id: Uuid) -> Result<bool, StoreError>;
 
-    /// Whether a token of this SHA-256 is valid.
+    /// The valid token of this SHA-256.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn accepts_worker_token(&self, sha256: &[u8; 32]) -> Result<bool, StoreError>;
+    pub async fn valid_worker_token(&self, sha256: &[u8; 32]) -> Result<Option<Uuid>, StoreError>;
 
     /// Notes contacts with remote workers, and forgets those that were in contact with no service for a day.
     ///

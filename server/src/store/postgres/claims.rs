@@ -78,7 +78,7 @@ async fn write(pool: PgPool, given: Option<Now>, mut group: Vec<Waiting>) {
 fn position(requests: &[ClaimRequest], request: &ClaimRequest) -> Option<usize> {
     requests
         .iter()
-        .position(|other| other.request == request.request)
+        .position(|other| other.request == request.request && other.token == request.token)
 }
 
 /// Requests, what each has claimed, and the jobs that were given another reason to wait.
@@ -233,15 +233,16 @@ async fn claimed_before(
         .map(|request| now.end_of(request.lease))
         .collect();
     let rows = sqlx::query(
-        "WITH held AS (SELECT id, ends, n FROM jobs JOIN unnest($1::uuid[], $2::bigint[], $3::bigint[]) WITH ORDINALITY \
-         AS given (worker, number, ends, n) ON jobs.worker = given.worker AND claim_number = number \
-         WHERE status = 'running' ORDER BY id FOR UPDATE OF jobs) \
+        "WITH held AS (SELECT id, ends, n FROM jobs JOIN unnest($1::uuid[], $2::bigint[], $3::bigint[], $4::uuid[]) WITH ORDINALITY \
+         AS given (worker, number, ends, token, n) ON jobs.worker = given.worker AND claim_number = number \
+         WHERE status = 'running' AND lease_token IS NOT DISTINCT FROM token ORDER BY id FOR UPDATE OF jobs) \
          UPDATE jobs SET lease_expires_at = ends FROM held WHERE jobs.id = held.id \
          RETURNING n, jobs.id, lease, spec, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
     )
     .bind(workers)
     .bind(numbers)
     .bind(ends)
+    .bind(requests.iter().map(|request| request.token).collect::<Vec<_>>())
     .fetch_all(&mut *connection)
     .await?;
     let mut claims = vec![Vec::new(); requests.len()];
@@ -284,14 +285,15 @@ async fn claim_admitted(
         .iter()
         .map(|(_, index)| of(index).is_remote)
         .collect();
+    let tokens: Vec<_> = admitted.iter().map(|(_, index)| of(index).token).collect();
     let step = Lease::step();
     let rows = sqlx::query(
         "WITH free AS (SELECT id FROM jobs WHERE id = ANY($1) AND status = 'queued' FOR UPDATE SKIP LOCKED) \
-         UPDATE jobs SET status = 'running', lease = lease + $7, lease_expires_at = given.ends, last_write = 0, worker = given.worker, \
-         claim_number = given.number, is_remote = given.remote, attempts = attempts + 1, fruitless = fruitless + 1, \
+         UPDATE jobs SET status = 'running', lease = lease + $8, lease_expires_at = given.ends, last_write = 0, worker = given.worker, \
+         claim_number = given.number, is_remote = given.remote, lease_token = given.token, attempts = attempts + 1, fruitless = fruitless + 1, \
          started_at = COALESCE(started_at, $6), status_reason = NULL, last_event = last_event + 1, version = version + 1 \
-         FROM free JOIN unnest($1::uuid[], $2::uuid[], $3::bigint[], $4::bigint[], $5::boolean[]) WITH ORDINALITY \
-         AS given (id, worker, number, ends, remote, n) ON free.id = given.id WHERE jobs.id = free.id \
+         FROM free JOIN unnest($1::uuid[], $2::uuid[], $3::bigint[], $4::bigint[], $5::boolean[], $7::uuid[]) WITH ORDINALITY \
+         AS given (id, worker, number, ends, remote, token, n) ON free.id = given.id WHERE jobs.id = free.id \
          RETURNING n, jobs.id, lease, spec, last_event, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
     )
     .bind(ids)
@@ -300,6 +302,7 @@ async fn claim_admitted(
     .bind(ends)
     .bind(remote)
     .bind(now.system_ms)
+    .bind(tokens)
     .bind(step)
     .fetch_all(&mut *connection)
     .await?;

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use api::job::Status;
 use sqlx::postgres::PgConnection;
+use uuid::Uuid;
 
 use crate::queue::Transition;
 use crate::store::ending::EndingJob;
@@ -58,10 +59,28 @@ impl PostgresStore {
         Ok(LeaseState::of(cancel_requested))
     }
 
+    pub(in crate::store) async fn owned(
+        &self,
+        token: Uuid,
+        leases: &[Lease],
+    ) -> Result<Vec<Lease>, StoreError> {
+        let owned: Vec<(Uuid, i64)> = sqlx::query_as(
+            "SELECT id, lease FROM jobs JOIN unnest($1::uuid[], $2::bigint[]) AS given (id, lease) USING (id, lease) WHERE lease_token = $3 OR lease_token IS NULL AND is_remote",
+        )
+        .bind(leases.iter().map(|lease| lease.job).collect::<Vec<_>>())
+        .bind(leases.iter().map(|lease| lease.number).collect::<Vec<_>>())
+        .bind(token)
+        .fetch_all(&self.readers)
+        .await?;
+        let lease = |(job, number)| Lease { job, number };
+        Ok(owned.into_iter().map(lease).collect())
+    }
+
     pub(in crate::store) async fn heartbeat(
         &self,
         leases: &[Lease],
         length: Duration,
+        token: Option<Uuid>,
     ) -> Result<Vec<LeaseState>, StoreError> {
         let mut connection = self.pool.acquire().await?;
         let now = self.now(&mut connection).await?;
@@ -70,10 +89,12 @@ impl PostgresStore {
         let held: Vec<(i64, bool, i64)> = sqlx::query_as(
             "SELECT n, cancel_requested, lease_expires_at \
              FROM unnest($1::uuid[], $2::bigint[]) WITH ORDINALITY AS given (id, lease, n) \
-             JOIN jobs ON jobs.id = given.id AND jobs.lease = given.lease WHERE status = 'running'",
+             JOIN jobs ON jobs.id = given.id AND jobs.lease = given.lease \
+             WHERE status = 'running' AND ($3::uuid IS NULL OR lease_token = $3 OR lease_token IS NULL AND is_remote)",
         )
         .bind(&ids)
         .bind(&numbers)
+        .bind(token)
         .fetch_all(&mut *connection)
         .await?;
         let renewed_until = now.end_of(length / 3 * 2);
@@ -85,13 +106,15 @@ impl PostgresStore {
             sqlx::query(
                 "WITH due AS (SELECT jobs.id FROM unnest($1::uuid[], $2::bigint[]) AS given (id, lease) \
                  JOIN jobs ON jobs.id = given.id AND jobs.lease = given.lease \
-                 WHERE status = 'running' AND lease_expires_at < $3 FOR UPDATE OF jobs SKIP LOCKED) \
+                 WHERE status = 'running' AND lease_expires_at < $3 AND ($5::uuid IS NULL OR lease_token = $5 OR lease_token IS NULL AND is_remote) \
+                 FOR UPDATE OF jobs SKIP LOCKED) \
                  UPDATE jobs SET lease_expires_at = $4 FROM due WHERE jobs.id = due.id",
             )
             .bind(&ids)
             .bind(&numbers)
             .bind(renewed_until)
             .bind(now.end_of(length))
+            .bind(token)
             .execute(&mut *connection)
             .await?;
         }

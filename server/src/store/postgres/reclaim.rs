@@ -50,7 +50,7 @@ impl PostgresStore {
             if job.after(end.transition).is_some_and(Status::is_terminal) {
                 // Nothing is solved under the new lease, which this process holds.
                 let row = sqlx::query(
-                    "UPDATE jobs SET lease = lease + $3, lease_expires_at = $1, last_write = 0, worker = NULL, claim_number = NULL, \
+                    "UPDATE jobs SET lease = lease + $3, lease_expires_at = $1, last_write = 0, worker = NULL, claim_number = NULL, lease_token = NULL, \
                      is_remote = false WHERE id = $2 RETURNING lease, spec, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
                 )
                 .bind(now.end_of(length))

@@ -42,14 +42,14 @@ impl PostgresStore {
         Ok(revoked.rows_affected() > 0)
     }
 
-    pub(in crate::store) async fn accepts_worker_token(
+    pub(in crate::store) async fn valid_worker_token(
         &self,
         sha256: &[u8; 32],
-    ) -> Result<bool, StoreError> {
+    ) -> Result<Option<Uuid>, StoreError> {
         let found = sqlx::query_scalar(
-            "SELECT EXISTS (SELECT 1 FROM worker_tokens WHERE sha256 = $1 AND revoked_at IS NULL)",
+            "SELECT id FROM worker_tokens WHERE sha256 = $1 AND revoked_at IS NULL",
         )
         .bind(&sha256[..]);
-        Ok(found.fetch_one(&self.readers).await?)
+        Ok(found.fetch_optional(&self.readers).await?)
     }
 }

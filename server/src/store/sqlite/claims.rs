@@ -119,12 +119,13 @@ async fn claimed_before(
 ) -> Result<Vec<Claim>, StoreError> {
     let rows = sqlx::query(
         "UPDATE jobs INDEXED BY jobs_by_claim SET lease_expires_at = ? \
-         WHERE worker = ? AND claim_number = ? AND status = 'running' \
+         WHERE worker = ? AND claim_number = ? AND lease_token IS ? AND status = 'running' \
          RETURNING id, lease, spec, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
     )
     .bind(expires_at)
     .bind(request.request.worker.to_string())
     .bind(request.request.number)
+    .bind(request.token.map(|token| token.to_string()))
     .fetch_all(&mut **transaction)
     .await?;
     let mut claims = Vec::with_capacity(rows.len());
@@ -144,7 +145,7 @@ async fn claim(
 ) -> Result<Claim, StoreError> {
     let row = sqlx::query(
         "UPDATE jobs SET status = 'running', lease = lease + ?, lease_expires_at = ?, last_write = 0, worker = ?, claim_number = ?, \
-         is_remote = ?, attempts = attempts + 1, fruitless = fruitless + 1, started_at = COALESCE(started_at, ?), \
+         is_remote = ?, lease_token = ?, attempts = attempts + 1, fruitless = fruitless + 1, started_at = COALESCE(started_at, ?), \
          status_reason = NULL, last_event = last_event + 1, version = version + 1 \
          WHERE id = ? AND status = 'queued' \
          RETURNING lease, spec, last_event, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
@@ -154,6 +155,7 @@ async fn claim(
     .bind(request.request.worker.to_string())
     .bind(request.request.number)
     .bind(request.is_remote)
+    .bind(request.token.map(|token| token.to_string()))
     .bind(now.system_ms)
     .bind(id.to_string())
     .fetch_one(&mut **transaction)

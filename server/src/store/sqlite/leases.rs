@@ -8,6 +8,8 @@ use std::time::Duration;
 
 use api::job::Status;
 use sqlx::{Sqlite, Transaction};
+use uuid::Uuid;
+use uuid::fmt::Hyphenated;
 
 use crate::queue::Transition;
 use crate::store::ending::EndingJob;
@@ -102,27 +104,69 @@ impl SqliteStore {
         self.local.disk.with_reserve(write).await
     }
 
+    pub(in crate::store) async fn owned(
+        &self,
+        token: Uuid,
+        leases: &[Lease],
+    ) -> Result<Vec<Lease>, StoreError> {
+        let owned: Vec<(Hyphenated, i64)> = sqlx::query_as(
+            "SELECT jobs.id, lease FROM json_each(?) AS given CROSS JOIN jobs ON jobs.id = value ->> '$.job' AND lease = value ->> '$.number' \
+             WHERE lease_token = ? OR lease_token IS NULL AND is_remote",
+        )
+        .bind(serde_json::to_string(leases)?)
+        .bind(token.to_string())
+        .fetch_all(&self.readers)
+        .await?;
+        let lease = |(job, number): (Hyphenated, i64)| Lease {
+            job: job.into(),
+            number,
+        };
+        Ok(owned.into_iter().map(lease).collect())
+    }
+
     pub(in crate::store) async fn heartbeat(
         &self,
         leases: &[Lease],
         length: Duration,
+        token: Option<Uuid>,
     ) -> Result<Vec<LeaseState>, StoreError> {
+        let token = token.map(|token| token.to_string());
+        let given = serde_json::to_string(leases)?;
+        let held: Vec<(i64, bool, i64)> = sqlx::query_as(
+            "SELECT key, cancel_requested, lease_expires_at FROM json_each(?1) AS given \
+             CROSS JOIN jobs ON jobs.id = value ->> '$.job' AND lease = value ->> '$.number' \
+             WHERE status = 'running' AND (?2 IS NULL OR lease_token = ?2 OR lease_token IS NULL AND is_remote)",
+        )
+        .bind(&given)
+        .bind(&token)
+        .fetch_all(&self.readers)
+        .await?;
         let renewed_until = self.local.clock.end_of(length / 3 * 2);
-        let mut states = Vec::with_capacity(leases.len());
-        for lease in leases {
-            let held: Option<(bool, i64)> = sqlx::query_as(
-                "SELECT cancel_requested, lease_expires_at FROM jobs WHERE id = ? AND lease = ? AND status = 'running'",
-            )
-            .bind(lease.job.to_string())
-            .bind(lease.number)
-            .fetch_optional(&self.readers)
-            .await?;
-            states.push(match held {
-                Some((_, expires_at)) if expires_at < renewed_until => {
-                    self.renew(*lease, length).await?
-                }
-                held => LeaseState::of(held.map(|(cancel_requested, _)| cancel_requested)),
-            });
+        let is_due = |(.., expires_at): &(i64, bool, i64)| *expires_at < renewed_until;
+        if held.iter().any(is_due) {
+            let write = async || {
+                sqlx::query(
+                    "UPDATE jobs SET lease_expires_at = ?1 \
+                     WHERE (id, lease) IN (SELECT value ->> '$.job', value ->> '$.number' FROM json_each(?2)) \
+                     AND +status = 'running' AND lease_expires_at < ?3 \
+                     AND (?4 IS NULL OR lease_token = ?4 OR lease_token IS NULL AND is_remote)",
+                )
+                .bind(self.local.clock.end_of(length))
+                .bind(&given)
+                .bind(renewed_until)
+                .bind(&token)
+                .execute(&self.writer)
+                .await?;
+                Ok(())
+            };
+            self.local.disk.with_reserve(write).await?;
+        }
+        let mut states = vec![LeaseState::Lost; leases.len()];
+        for (index, cancel_requested, _) in held {
+            let index = usize::try_from(index).unwrap_or(usize::MAX);
+            if let Some(state) = states.get_mut(index) {
+                *state = LeaseState::Held { cancel_requested };
+            }
         }
         Ok(states)
     }

@@ -78,7 +78,7 @@ impl SqliteStore {
             if job.after(end.transition).is_some_and(Status::is_terminal) {
                 // Nothing is solved under the new lease, which this process holds.
                 let row = sqlx::query(
-                    "UPDATE jobs SET lease = lease + ?, lease_expires_at = ?, last_write = 0, worker = NULL, claim_number = NULL, \
+                    "UPDATE jobs SET lease = lease + ?, lease_expires_at = ?, last_write = 0, worker = NULL, claim_number = NULL, lease_token = NULL, \
                      is_remote = 0 WHERE id = ? \
                      RETURNING lease, spec, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
                 )

@@ -2,6 +2,7 @@
 
 use api::worker::WorkerToken;
 use uuid::Uuid;
+use uuid::fmt::Hyphenated;
 
 use crate::store::StoreError;
 use crate::store::rows::{timestamp, token};
@@ -48,16 +49,16 @@ impl SqliteStore {
         Ok(revoked.rows_affected() > 0)
     }
 
-    pub(in crate::store) async fn accepts_worker_token(
+    pub(in crate::store) async fn valid_worker_token(
         &self,
         sha256: &[u8; 32],
-    ) -> Result<bool, StoreError> {
-        let found: i64 = sqlx::query_scalar(
-            "SELECT count(*) FROM worker_tokens WHERE sha256 = ? AND revoked_at IS NULL",
+    ) -> Result<Option<Uuid>, StoreError> {
+        let found: Option<Hyphenated> = sqlx::query_scalar(
+            "SELECT id FROM worker_tokens WHERE sha256 = ? AND revoked_at IS NULL",
         )
         .bind(&sha256[..])
-        .fetch_one(&self.readers)
+        .fetch_optional(&self.readers)
         .await?;
-        Ok(found > 0)
+        Ok(found.map(Uuid::from))
     }
 }

@@ -23,12 +23,12 @@ use crate::store::{
     Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, NewFile, Write, WriteKind,
 };
 use crate::worker::health::WorkerHealth;
-use crate::worker::protocol::{ClaimBody, LeasesBody, PROGRAM, RestartBody, Taken, WriteAnswer};
+use crate::worker::protocol::{
+    ClaimBody, LeasesBody, MOST_LEASES, PROGRAM, RestartBody, Taken, WriteAnswer,
+};
 
 /// Where writes are sent.
 const WRITES: &str = "/v1/worker/writes";
-/// Where leases are renewed.
-const HEARTBEATS: &str = "/v1/worker/leases";
 
 /// Interval of the heartbeat of all jobs of a worker, which also brings cancel requests.
 const HEARTBEAT: Duration = Duration::from_secs(2);
@@ -304,42 +304,55 @@ fn unexpected(answer: WriteAnswer) -> EmployerError {
     }
 }
 
-/// Renews all leases in one request and reports the health of the workers, until its task is aborted.
+/// Renews all leases, in one request unless they are too many, and reports the health of the workers, until its task is aborted.
 async fn beat(options: RemoteOptions, leases: Leases) {
     let mut timer = tokio::time::interval(HEARTBEAT);
     timer.set_missed_tick_behavior(MissedTickBehavior::Delay);
     let (mut failures, mut was_failing) = (0_u32, false);
     loop {
         timer.tick().await;
-        let body = LeasesBody {
-            worker: options.worker,
-            leases: held(&leases).keys().copied().collect(),
-            length: options.lease,
-            failing: options.health.failing(),
-        };
-        let is_failing = body.failing.is_some();
-        if body.leases.is_empty() && !is_failing && !was_failing {
-            continue;
+        let failing = options.health.failing();
+        let all: Vec<_> = held(&leases).keys().copied().collect();
+        let mut parts: Vec<_> = all.chunks(MOST_LEASES).collect();
+        if parts.is_empty() && (failing.is_some() || was_failing) {
+            parts.push(&[]);
         }
-        let answer = options.client.post(HEARTBEATS, &body).await;
-        let states: Vec<LeaseState> = match answer {
-            Ok(states) => states,
-            Err(error) => {
-                failures += 1;
-                // Seldom while the service is away.
-                if failures.is_power_of_two() {
-                    tracing::warn!(%error, failures, "leases could not be renewed");
+        was_failing = failing.is_some();
+        for part in parts {
+            match renew(&options, part, failing.clone()).await {
+                Ok(states) => {
+                    failures = 0;
+                    let mut known = held(&leases);
+                    for (lease, state) in part.iter().zip(states) {
+                        // It may have ended meanwhile.
+                        known.entry(*lease).and_modify(|known| *known = state);
+                    }
                 }
-                continue;
+                Err(error) => {
+                    failures += 1;
+                    // Seldom while the service is away.
+                    if failures.is_power_of_two() {
+                        tracing::warn!(%error, failures, "leases could not be renewed");
+                    }
+                }
             }
-        };
-        (failures, was_failing) = (0, is_failing);
-        let mut known = held(&leases);
-        for (lease, state) in body.leases.iter().zip(states) {
-            // It may have ended meanwhile.
-            known.entry(*lease).and_modify(|known| *known = state);
         }
     }
+}
+
+/// Renews leases; returns their states.
+async fn renew(
+    options: &RemoteOptions,
+    leases: &[Lease],
+    failing: Option<String>,
+) -> Result<Vec<LeaseState>, ClientError> {
+    let body = LeasesBody {
+        worker: options.worker,
+        leases: leases.to_vec(),
+        length: options.lease,
+        failing,
+    };
+    options.client.post("/v1/worker/leases", &body).await
 }
 
 /// Name of this machine; empty where it has none.

@@ -33,6 +33,7 @@ impl Pair {
                 ahead_ms: 0,
             },
             lease: LEASE,
+            token: None,
         };
         let claims = self.store.claim(&request).await.expect("the store");
         // A repeated request gets the same jobs; without any, it is as good as the first.

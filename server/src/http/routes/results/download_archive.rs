@@ -17,6 +17,7 @@ use uuid::Uuid;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
+use crate::export::files::is_plain_name;
 use crate::export::pictures;
 use crate::http::app::{App, MAX_ARCHIVES};
 use crate::http::extract::JobId;
@@ -62,7 +63,9 @@ pub(crate) async fn archive(
     if !app.job(id).await?.document.status.is_terminal() {
         return Err(JobError::Active(id).into());
     }
-    let files = app.store.manifest(id).await?;
+    let mut files = app.store.manifest(id).await?;
+    // Earlier versions stored the names that workers sent unchecked.
+    files.retain(|file| is_plain_name(&file.name));
     let permit = tokio::time::timeout(PERMIT_TIMEOUT, app.archive_slots.take()).await;
     let permit = permit.ok().flatten().ok_or(TooManyArchivesError)?;
     let documents = app.store.block_documents(id).await?;
@@ -225,7 +228,11 @@ mod tests {
 
     use zip::ZipArchive;
 
+    use crate::export::documents::CSV;
+    use crate::export::files::manifest_entry;
     use crate::http::tests::{FIELDS, Service};
+    use crate::queue::Transition;
+    use crate::store::{End, JobUpdate, NewContent, NewFile};
 
     #[tokio::test]
     async fn the_archive_holds_every_file_of_the_manifest() {
@@ -246,6 +253,33 @@ mod tests {
         let mut fields = archive.by_name("fields-20.vtu").expect("a file");
         fields.read_to_string(&mut content).expect("text");
         assert_eq!(content, FIELDS);
+    }
+
+    #[tokio::test]
+    async fn a_stored_name_that_leads_out_of_its_folder_is_not_in_the_archive() {
+        let service = Service::new().await;
+        let id = service.queued(r#"{"system":{"kind":"dimm"}}"#).await;
+        let store = &service.app.store;
+        let claim = store.claim_next(i64::MAX).await.expect("a job");
+        let table = |name| NewFile {
+            file: manifest_entry(name, None, CSV, b"1"),
+            content: NewContent::Inline(b"1".to_vec()),
+        };
+        let update = JobUpdate {
+            files: vec![table("../../outside.csv"), table("inside.csv")],
+            ..JobUpdate::default()
+        };
+        let end = End::without_result(Transition::Succeed, "as the test asked for");
+        store.end_next(&claim, &update, &end).await;
+        let path = format!("/v1/jobs/{id}/results/archive");
+        let (status, _, bytes) = service.bytes("GET", &path, &[], "").await;
+        assert_eq!(status, 200);
+        let archive = ZipArchive::new(Cursor::new(bytes)).expect("an archive");
+        let names: Vec<_> = archive
+            .file_names()
+            .map(|name| name.expect("a name"))
+            .collect();
+        assert_eq!(names, ["inside.csv"]);
     }
 
     #[tokio::test]

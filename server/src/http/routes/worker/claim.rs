@@ -2,13 +2,14 @@
 
 use std::time::Duration;
 
-use axum::Json;
 use axum::extract::State;
+use axum::{Extension, Json};
 use tokio::time::Instant;
 use uuid::Uuid;
 
 use crate::http::app::App;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
+use crate::http::worker_access::WorkerToken;
 use crate::http::worker_body::WorkerBody;
 use crate::queue::Capacity;
 use crate::store::{Claim, ClaimRequest};
@@ -43,6 +44,7 @@ impl RouteError for Drained {
 /// Claims jobs; without one it waits for a while and then claims none. A worker that takes no more jobs gets those of a repeated request.
 pub(crate) async fn claim(
     State(app): State<App>,
+    Extension(token): Extension<WorkerToken>,
     WorkerBody(body): WorkerBody<ClaimBody>,
 ) -> Result<Json<Vec<Claim>>, ProblemResponse> {
     if body.program != PROGRAM {
@@ -51,6 +53,7 @@ pub(crate) async fn claim(
     }
     let mut request = ClaimRequest {
         is_remote: true,
+        token: token.0,
         lease: lease_length(body.request.lease),
         capacity: Capacity {
             slots: body.request.capacity.slots.min(MAX_SLOTS),

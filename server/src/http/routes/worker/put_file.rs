@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use axum::Json;
 use axum::extract::{Path as Parameters, Query, State};
+use axum::{Extension, Json};
 use serde::Deserialize;
 use tokio::io::AsyncWriteExt;
 use uuid::Uuid;
@@ -12,6 +12,7 @@ use crate::export::files::{create_folder, is_full, is_plain_name};
 use crate::http::app::App;
 use crate::http::bodies::{ArrivingBody, BodyError};
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
+use crate::http::worker_access::WorkerToken;
 use crate::objects::{ObjectFile, Source};
 use crate::store::integrity::Checksum;
 use crate::store::{Lease, LeaseState, NewContent};
@@ -62,6 +63,7 @@ pub(crate) struct Announced {
 /// Takes a file into the folder of the attempt, or into an object.
 pub(crate) async fn put_file(
     State(app): State<App>,
+    Extension(token): Extension<WorkerToken>,
     Parameters((job, number, name)): Parameters<(Uuid, i64, String)>,
     Query(announced): Query<Announced>,
     body: ArrivingBody,
@@ -70,7 +72,8 @@ pub(crate) async fn put_file(
         return Err(FileError::Name(name).into());
     }
     let lease = Lease { job, number };
-    if app.store.lease_state(lease).await? == LeaseState::Lost {
+    let is_own = token.owns(&app.store, lease).await?;
+    if !is_own || app.store.lease_state(lease).await? == LeaseState::Lost {
         return Err(FileError::LeaseLost(lease).into());
     }
     let sent = Sent {

@@ -4,18 +4,18 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Duration;
 
-use axum::Json;
 use axum::extract::State;
+use axum::{Extension, Json};
 use futures_util::future::join_all;
 use tokio::time::{Instant, timeout_at};
 use uuid::Uuid;
 
 use crate::http::app::App;
 use crate::http::problem::{ProblemResponse, ProblemType};
+use crate::http::worker_access::WorkerToken;
 use crate::http::worker_body::WorkerBody;
 use crate::queue::Transition;
-use crate::store::block::EncodedBlock;
-use crate::store::{Store, Write, WriteKind};
+use crate::store::{LeaseState, Store, UpdateFault, Write, WriteKind};
 use crate::worker::Employer;
 use crate::worker::protocol::{MOST_WRITES, WriteAnswer, lease_length};
 
@@ -26,13 +26,33 @@ const LONGEST: Duration = Duration::from_secs(5);
 /// done one after the other.
 pub(crate) async fn write(
     State(app): State<App>,
+    Extension(token): Extension<WorkerToken>,
     WorkerBody(writes): WorkerBody<Vec<Write>>,
 ) -> Result<Json<Vec<WriteAnswer>>, ProblemResponse> {
     if writes.len() > MOST_WRITES {
         let detail = format!("{} writes, {MOST_WRITES} at most", writes.len());
         return Err(ProblemType::UNREADABLE_BODY.with_detail(detail));
     }
-    Ok(Json(answers(&app.store, writes, LONGEST).await))
+    let leases = writes.iter().map(|write| write.lease);
+    let owned = token.owned(&app.store, leases).await?;
+    let mut all: Vec<_> = writes.iter().map(|write| lost(&write.kind)).collect();
+    let own = writes.into_iter().enumerate();
+    let (numbers, own): (Vec<_>, Vec<_>) = own
+        .filter(|(_, write)| owned.contains(&write.lease))
+        .unzip();
+    let done = answers(&app.store, own, LONGEST).await;
+    for (number, answer) in numbers.into_iter().zip(done) {
+        all[number] = answer;
+    }
+    Ok(Json(all))
+}
+
+/// The answer to a write under a lease that was lost.
+fn lost(kind: &WriteKind) -> WriteAnswer {
+    match kind {
+        WriteKind::Renew(_) => WriteAnswer::Lease(LeaseState::Lost),
+        WriteKind::End(_) => WriteAnswer::Status(None),
+    }
 }
 
 /// Does writes. Where there is more than one job, what takes longer is not waited for.
@@ -91,6 +111,7 @@ async fn one(store: &Store, write: Write) -> Result<WriteAnswer, ProblemResponse
     } = write;
     Ok(match kind {
         WriteKind::Renew(length) => {
+            update.check().map_err(|cause| refused(&cause))?;
             let length = lease_length(length);
             WriteAnswer::Lease(Employer::record(store, lease, &update, length).await?)
         }
@@ -99,13 +120,15 @@ async fn one(store: &Store, write: Write) -> Result<WriteAnswer, ProblemResponse
                 let detail = format!("/kind/end/transition: {:?} ends no attempt", end.transition);
                 return Err(ProblemType::UNREADABLE_BODY.with_detail(detail));
             }
-            if let Some(Err(cause)) = update.block.as_ref().map(EncodedBlock::check) {
-                let detail = format!("/update/block: {cause}");
-                return Err(ProblemType::UNREADABLE_BODY.with_detail(detail));
-            }
+            update.check().map_err(|cause| refused(&cause))?;
             WriteAnswer::Status(Employer::finish(store, lease, &update, &end).await?)
         }
     })
+}
+
+/// The problem of an update that is not as a worker writes it.
+fn refused(cause: &UpdateFault) -> ProblemResponse {
+    ProblemType::UNREADABLE_BODY.with_detail(cause.to_string())
 }
 
 #[cfg(test)]
@@ -198,6 +221,76 @@ mod tests {
         let body = serde_json::to_string(writes).expect("JSON");
         let (status, _, answers) = service.post(PATH, &body).await;
         (status.as_u16(), answers)
+    }
+
+    /// An update with one file and one event, as JSON.
+    fn with_file(name: &str, sha256: &str, event: &str) -> Value {
+        let file = json!({"name": name, "cycle": null, "media_type": "text/csv", "bytes": 1, "sha256": sha256});
+        let mut update = serde_json::to_value(numbered(1)).expect("JSON");
+        update["files"] = json!([{"file": file, "content": "folder"}]);
+        update["events"] = json!([["cycle", event]]);
+        update
+    }
+
+    #[tokio::test]
+    async fn an_update_with_a_name_that_leads_out_of_its_folder_or_other_nonsense_is_refused() {
+        let service = Service::new().await;
+        let lease = Lease::from(&claimed(&service).await);
+        let digest = crate::export::files::sha256(b"1");
+        let mut block = crate::store::block::Block::default();
+        let file = crate::export::files::manifest_entry("../a.csv", None, "text/csv", b"1");
+        assert!(block.push_document(&file, b"1"));
+        let mut with_block = serde_json::to_value(numbered(1)).expect("JSON");
+        with_block["block"] = serde_json::to_value(block.encode().expect("encoded")).expect("JSON");
+        let mut cases = vec![
+            (with_file("a.csv", "00", "{}"), "`00` is no SHA-256"),
+            (
+                with_file("a.csv", &digest, "1\nid: 7"),
+                "is no JSON document of one line",
+            ),
+            (
+                with_file("a.csv", &digest, "{}\n"),
+                "is no JSON document of one line",
+            ),
+            (with_block, "`../a.csv` is no entry of a block"),
+        ];
+        let names = [
+            "../../a.csv",
+            "/etc/passwd",
+            "..",
+            "",
+            "a/b",
+            "a\\b",
+            "a\nb",
+            "a\0",
+            "c:a",
+        ];
+        let named = names.map(|name| (with_file(name, &digest, "{}"), "is no plain file name"));
+        cases.extend(named);
+        cases.push((
+            with_file(&"a".repeat(256), &digest, "{}"),
+            "is no plain file name",
+        ));
+        for (update, detail) in cases {
+            for kind in [
+                json!({"renew": Duration::from_secs(9)}),
+                json!({"end": end(Transition::Succeed)}),
+            ] {
+                let body = json!([{"lease": lease, "update": update, "kind": kind}]);
+                let (_, _, answers) = service.post(PATH, &body.to_string()).await;
+                let problem = &answers[0]["problem"];
+                let found = problem["detail"].as_str().unwrap_or_default();
+                assert!(
+                    problem["status"] == 400 && found.contains(detail),
+                    "{detail}: {answers}"
+                );
+            }
+        }
+        let held = (
+            200,
+            json!([{"lease": {"held": {"cancel_requested": false}}}]),
+        );
+        assert_eq!(post(&service, &[update_of(lease, 1)]).await, held);
     }
 
     #[tokio::test]

@@ -1,0 +1,2 @@
+-- The token with which a job was claimed: no other one writes under the lease.
+ALTER TABLE jobs ADD COLUMN lease_token TEXT;
