@@ -15,8 +15,6 @@ use crate::worker::WorkerConfig;
 const INTERVAL: Duration = Duration::from_secs(1);
 /// Rounds between two checkpoints of the write-ahead log.
 const WAL_ROUNDS: u32 = 60;
-/// Milliseconds of a day.
-const DAY_MS: i64 = 86_400_000;
 
 /// Runs until the service stops. `reclaimed` are the jobs that were reclaimed at its start.
 pub(super) async fn maintain(
@@ -59,11 +57,18 @@ pub(super) async fn maintain(
             }
         };
         rounds = (rounds + 1) % WAL_ROUNDS;
-        if rounds == 0
-            && let Err(error) = store.checkpoint_wal().await
-        {
-            tracing::warn!(%error, "the write-ahead log could not be checkpointed");
+        if rounds == 0 {
+            each_minute(&store).await;
         }
+    }
+}
+
+async fn each_minute(store: &Store) {
+    if let Err(error) = store.count_time().await {
+        tracing::warn!(%error, "the time until jobs are deleted could not be counted");
+    }
+    if let Err(error) = store.checkpoint_wal().await {
+        tracing::warn!(%error, "the write-ahead log could not be checkpointed");
     }
 }
 
@@ -148,9 +153,9 @@ async fn round(
 }
 
 async fn delete_old(store: &Store, days: u32) -> Result<(), StoreError> {
-    let now = store.time().await?;
-    let before = now.saturating_sub(DAY_MS.saturating_mul(i64::from(days)));
-    let deleted = store.delete_ended_before(before).await?;
+    let deleted = store
+        .delete_older(Duration::from_hours(24 * u64::from(days)))
+        .await?;
     if deleted > 0 {
         tracing::info!(deleted, keep_days = days, "old jobs deleted");
     }

@@ -4,6 +4,9 @@ use crate::queue::ATTEMPT_LIMIT;
 
 /// Default of [`Limits::least_free_disk_mb`].
 const LEAST_FREE_DISK_MB: u64 = 256;
+/// Longest time between two counts of the time that services have seen pass, ms, of what is counted: a service counts each minute, unless it
+/// is slow.
+pub(in crate::store) const LONGEST_COUNTED_MS: i64 = 300_000;
 
 /// Limits of a store.
 #[derive(Debug, Clone, Copy)]

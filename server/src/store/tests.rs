@@ -46,6 +46,7 @@ mod object_names;
 mod objects;
 mod order;
 mod pages;
+mod retention;
 mod roles;
 mod tokens;
 mod verification;

@@ -1,5 +1,7 @@
 //! Changes of all jobs, gauges, tokens, maintenance.
 
+use std::time::Duration;
+
 use api::service::Demand;
 use api::worker::{RemoteWorker, WorkerToken};
 use uuid::Uuid;
@@ -94,18 +96,19 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn drain_worker(&self, id: Uuid) -> Result<bool, StoreError>;
 
-    /// The time of the store, ms since 1970.
+    /// Adds the time since the last call, by which the age of jobs is measured, to the time that services have seen pass: five minutes at most, so
+    /// that neither a clock that is wrong nor the time without a service counts.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn time(&self) -> Result<i64, StoreError>;
+    pub async fn count_time(&self) -> Result<(), StoreError>;
 
-    /// Deletes jobs that ended before a time of the store, the oldest first and a limited number, and batches without remaining
-    /// jobs. Returns the number of jobs.
+    /// Deletes jobs that ended longer ago than this, by the time that services have seen pass, the oldest first and a limited number, and
+    /// batches without remaining jobs. Returns the number of jobs.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn delete_ended_before(&self, time: i64) -> Result<usize, StoreError>;
+    pub async fn delete_older(&self, age: Duration) -> Result<usize, StoreError>;
 
     /// Moves the write-ahead log into the database, as far as readers allow and without waiting for them.
     ///

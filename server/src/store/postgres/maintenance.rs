@@ -1,12 +1,16 @@
 //! Maintenance: deadlines of queued jobs, retention of ended ones.
 
+use std::time::Duration;
+
 use api::job::{Outcome, Status};
 use uuid::Uuid;
 
 use crate::queue::Transition;
 use crate::store::ending::EndingJob;
+use crate::store::limits::LONGEST_COUNTED_MS;
 use crate::store::postgres::PostgresStore;
 use crate::store::postgres::transitions::end_job;
+use crate::store::rows::integer;
 use crate::store::{End, StoreError};
 
 /// Largest number of jobs deleted in a call; bounds how long other writes wait.
@@ -38,19 +42,26 @@ impl PostgresStore {
         Ok(late.len())
     }
 
-    pub(in crate::store) async fn time(&self) -> Result<i64, StoreError> {
+    /// Several services of a database count the same time once.
+    pub(in crate::store) async fn count_time(&self) -> Result<(), StoreError> {
         let mut connection = self.pool.acquire().await?;
-        Ok(self.now(&mut connection).await?.system_ms)
+        let now = self.now(&mut connection).await?;
+        sqlx::query(
+            "UPDATE service_time SET passed_ms = passed_ms + LEAST(GREATEST($1 - counted_at, 0), $2), counted_at = $1",
+        )
+        .bind(now.monotonic_ms)
+        .bind(LONGEST_COUNTED_MS)
+        .execute(&mut *connection)
+        .await?;
+        Ok(())
     }
 
-    pub(in crate::store) async fn delete_ended_before(
-        &self,
-        time: i64,
-    ) -> Result<usize, StoreError> {
+    pub(in crate::store) async fn delete_older(&self, age: Duration) -> Result<usize, StoreError> {
         let old: Vec<Uuid> = sqlx::query_scalar(
-            "SELECT id FROM jobs WHERE finished_at < $1 ORDER BY finished_at LIMIT $2",
+            "SELECT id FROM jobs WHERE finished_at IS NOT NULL AND ended_ms < (SELECT passed_ms FROM service_time) - $1 \
+             ORDER BY ended_ms, finished_at LIMIT $2",
         )
-        .bind(time)
+        .bind(integer(age.as_millis()))
         .bind(DELETE_LIMIT)
         .fetch_all(&self.pool)
         .await?;
@@ -59,11 +70,9 @@ impl PostgresStore {
         }
         if !old.is_empty() {
             sqlx::query(
-                "DELETE FROM sweeps WHERE created_at < $1 \
-                 AND NOT EXISTS (SELECT 1 FROM sweep_jobs WHERE sweep_id = sweeps.id) \
+                "DELETE FROM sweeps WHERE NOT EXISTS (SELECT 1 FROM sweep_jobs WHERE sweep_id = sweeps.id) \
                  AND NOT EXISTS (SELECT 1 FROM expansions WHERE sweep_id = sweeps.id AND NOT is_over)",
             )
-            .bind(time)
             .execute(&self.pool)
             .await?;
         }

@@ -111,6 +111,7 @@ async fn update_jobs(
     let updated: Vec<(Uuid, i64)> = sqlx::query_as(
         "UPDATE jobs SET status = given.status, status_reason = reason, outcome = given.outcome, summary = given.summary, \
          cancel_requested = requested, lease_expires_at = NULL, finished_at = given.finished_at, \
+         ended_ms = (SELECT passed_ms FROM service_time), \
          progress = COALESCE(given.progress, jobs.progress), last_write = COALESCE(number, last_write), \
          attempts = attempts - released::int, fruitless = GREATEST(fruitless - released::int, 0), \
          last_event = last_event + ended::int, version = version + 1, \

@@ -1,10 +1,14 @@
 //! Maintenance: deadlines of queued jobs, retention of ended ones, and the write-ahead log.
 
+use std::time::Duration;
+
 use api::job::{Outcome, Status};
 use uuid::fmt::Hyphenated;
 
 use crate::queue::Transition;
 use crate::store::ending::EndingJob;
+use crate::store::limits::LONGEST_COUNTED_MS;
+use crate::store::rows::integer;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::queries::BEGIN;
 use crate::store::sqlite::transitions::end_job;
@@ -37,19 +41,23 @@ impl SqliteStore {
         Ok(late.len())
     }
 
-    #[expect(clippy::unused_async, reason = "other engines ask the database")]
-    pub(in crate::store) async fn time(&self) -> Result<i64, StoreError> {
-        Ok(self.local.clock.now().system_ms)
+    pub(in crate::store) async fn count_time(&self) -> Result<(), StoreError> {
+        sqlx::query(
+            "UPDATE service_time SET passed_ms = passed_ms + min(max(?1 - counted_at, 0), ?2), counted_at = ?1",
+        )
+        .bind(self.local.clock.now().monotonic_ms)
+        .bind(LONGEST_COUNTED_MS)
+        .execute(&self.writer)
+        .await?;
+        Ok(())
     }
 
-    pub(in crate::store) async fn delete_ended_before(
-        &self,
-        time: i64,
-    ) -> Result<usize, StoreError> {
+    pub(in crate::store) async fn delete_older(&self, age: Duration) -> Result<usize, StoreError> {
         let old: Vec<Hyphenated> = sqlx::query_scalar(
-            "SELECT id FROM jobs WHERE finished_at < ? ORDER BY finished_at LIMIT ?",
+            "SELECT id FROM jobs WHERE finished_at IS NOT NULL AND ended_ms < (SELECT passed_ms FROM service_time) - ? \
+             ORDER BY ended_ms, finished_at LIMIT ?",
         )
-        .bind(time)
+        .bind(integer(age.as_millis()))
         .bind(DELETE_LIMIT)
         .fetch_all(&self.readers)
         .await?;
@@ -58,11 +66,9 @@ impl SqliteStore {
         }
         if !old.is_empty() {
             sqlx::query(
-                "DELETE FROM sweeps WHERE created_at < ? \
-                 AND NOT EXISTS (SELECT 1 FROM sweep_jobs WHERE sweep_id = sweeps.id) \
+                "DELETE FROM sweeps WHERE NOT EXISTS (SELECT 1 FROM sweep_jobs WHERE sweep_id = sweeps.id) \
                  AND NOT EXISTS (SELECT 1 FROM expansions WHERE sweep_id = sweeps.id AND NOT is_over)",
             )
-            .bind(time)
             .execute(&self.writer)
             .await?;
         }

@@ -5,7 +5,7 @@ use sqlx::migrate::Migrator;
 use crate::store::migrations::{self, file, migrator_of};
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 32] = [
+const FILES: [(&str, &str); 33] = [
     file!("sqlite/0001_jobs.sql"),
     file!("sqlite/0002_labels.sql"),
     file!("sqlite/0003_events.sql"),
@@ -38,6 +38,7 @@ const FILES: [(&str, &str); 32] = [
     file!("sqlite/0070_failing_workers.sql"),
     file!("sqlite/0071_avoided_workers.sql"),
     file!("sqlite/0072_tokens_of_leases.sql"),
+    file!("sqlite/0073_service_time.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.

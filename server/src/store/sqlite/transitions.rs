@@ -29,7 +29,7 @@ pub(super) async fn end_job(
     };
     let seq: i64 = sqlx::query_scalar(
         "UPDATE jobs SET status = ?, status_reason = ?, outcome = ?, summary = ?, cancel_requested = ?, \
-         lease_expires_at = NULL, finished_at = ?, progress = COALESCE(?, progress), attempts = attempts - ?, \
+         lease_expires_at = NULL, finished_at = ?, ended_ms = (SELECT passed_ms FROM service_time), progress = COALESCE(?, progress), attempts = attempts - ?, \
          fruitless = max(fruitless - ?, 0), last_event = last_event + ?, version = version + 1, \
          queued_at = queued_at + ?, deadline_at = deadline_at + ?, avoided_worker = iif(?, worker, NULL), avoided_until = ? \
          WHERE id = ? AND status = ? RETURNING last_event",

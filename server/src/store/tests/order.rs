@@ -8,7 +8,7 @@ use crate::store::postgres::claims::{FIRST_QUEUED, LET_SORT};
 on_both_engines! { Fixture:
     the_oldest_job_is_claimed_first,
     a_higher_priority_is_claimed_first_and_a_large_job_says_that_it_waits_for_memory,
-    a_deadline_ends_a_queued_job_and_only_old_jobs_are_deleted,
+    a_deadline_ends_a_queued_job,
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 4)]
@@ -70,7 +70,7 @@ async fn a_higher_priority_is_claimed_first_and_a_large_job_says_that_it_waits_f
     assert_eq!(fixture.claimed(10).await.id, plain);
 }
 
-async fn a_deadline_ends_a_queued_job_and_only_old_jobs_are_deleted(fixture: Fixture) {
+async fn a_deadline_ends_a_queued_job(fixture: Fixture) {
     let options = SubmitOptions {
         priority: 0,
         deadline_s: Some(5),
@@ -85,14 +85,6 @@ async fn a_deadline_ends_a_queued_job_and_only_old_jobs_are_deleted(fixture: Fix
         (job.status, job.outcome),
         (Status::Failed, Some(Outcome::DeadlineExceeded))
     );
-    fixture.queued().await;
-    let now = fixture.store.time().await.expect("the store");
-    assert_eq!(now, fixture.store.clock().now().system_ms);
-    let deleted = fixture.store.delete_ended_before(5_000).await;
-    assert_eq!(deleted.expect("the store"), 0);
-    let deleted = fixture.store.delete_ended_before(5_001).await;
-    assert_eq!(deleted.expect("the store"), 1);
-    assert!(fixture.store.job(late).await.expect("the store").is_none());
 }
 
 /// Jobs are claimed in the order of an index and no further than asked for, also by statistics of a time when one job waited.
