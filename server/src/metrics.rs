@@ -229,7 +229,10 @@ impl Default for Metrics {
         let answer_time: ByRoute<_, fn() -> Histogram> =
             Family::new_with_constructor(|| Histogram::new(ANSWER_BOUNDS_S));
         let database = ("database_size", "Size of the database");
-        let disk_free = ("disk_free", "Free space on the disk of the database");
+        let disk_free = (
+            "disk_free",
+            "Free space on the disk of the database, and in the database",
+        );
         let wal = ("wal_size", "Size of the write-ahead log");
         let demand = ("demand", "Estimated processor time of the waiting jobs");
         let stale = "Writes discarded because their lease was lost";

@@ -42,6 +42,9 @@ pub(super) async fn maintain(
             healthy = None;
         }
         while finalizing.try_join_next().is_some() {}
+        if let Err(error) = store.give_pages_back().await {
+            tracing::warn!(%error, "free pages of the database could not be given back");
+        }
         reserve_disk(&store).await;
         let reclaims = healthy.is_some_and(|since| since.elapsed() >= lease);
         let started = Instant::now();

@@ -7,7 +7,7 @@
 use std::fs::File;
 use std::io::Write;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use api::job::Status;
 
@@ -28,6 +28,10 @@ pub struct DataDisk {
     /// The file that occupies the reserved part.
     reserve: PathBuf,
     is_reserved: AtomicBool,
+    /// Free pages of the database, bytes: the next writes use them first.
+    free_in_database: AtomicU64,
+    /// The file of the database is not at its path any more.
+    is_database_removed: AtomicBool,
 }
 
 impl DataDisk {
@@ -37,6 +41,8 @@ impl DataDisk {
             least_free_mb,
             reserve,
             is_reserved: AtomicBool::new(false),
+            free_in_database: AtomicU64::new(0),
+            is_database_removed: AtomicBool::new(false),
         };
         disk.reserve_again();
         disk
@@ -52,14 +58,30 @@ impl DataDisk {
         files::free_mb(files::parent(&self.reserve))
     }
 
+    /// Notes the size of the free pages of the database, bytes.
+    pub(super) fn set_free_in_database(&self, bytes: u64) {
+        self.free_in_database.store(bytes, Ordering::Relaxed);
+    }
+
+    /// Size of the free pages of the database, MB.
+    pub fn free_in_database_mb(&self) -> u64 {
+        self.free_in_database.load(Ordering::Relaxed) >> 20
+    }
+
+    /// Free space with that in the database, MB; `None` if the system does not report it.
+    pub fn usable_mb(&self) -> Option<u64> {
+        Some(self.free_mb()? + self.free_in_database_mb())
+    }
+
     /// Why no job is started, if there is not enough space.
     pub fn shortage(&self) -> Option<String> {
-        let free = self.free_mb();
         if self.is_full() {
-            let free = free.map_or_else(String::new, |mb| format!(" ({mb} MB free)"));
+            let free = self
+                .free_mb()
+                .map_or_else(String::new, |mb| format!(" ({mb} MB free)"));
             return Some(format!("{}{free}", StoreError::DiskFull));
         }
-        let free = free.filter(|mb| *mb < self.least_free_mb)?;
+        let free = self.usable_mb().filter(|mb| *mb < self.least_free_mb)?;
         let needed = self.least_free_mb;
         Some(format!("{free} MB are free, {needed} MB are needed"))
     }

@@ -29,6 +29,7 @@ mod results;
 mod results_to_move;
 mod revisions;
 mod selects;
+mod space;
 mod submissions;
 mod transitions;
 pub(in crate::store) mod verify;

@@ -110,7 +110,13 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn delete_older(&self, age: Duration) -> Result<usize, StoreError>;
 
-    /// Moves the write-ahead log into the database, as far as readers allow and without waiting for them.
+    /// Counts the free pages of the database as free space, and gives some of them back to the file system if the database can.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn give_pages_back(&self) -> Result<(), StoreError>;
+
+    /// Moves the write-ahead log into the database and truncates it, as far as readers allow and without waiting for them.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.

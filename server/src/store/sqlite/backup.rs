@@ -51,6 +51,15 @@ pub(in crate::store) async fn copy_database(
     target: &Path,
 ) -> Result<(), BackupError> {
     let mut database = at(source).connect().await?;
+    let vacuum: i64 = sqlx::query_scalar("PRAGMA auto_vacuum")
+        .fetch_one(&mut database)
+        .await?;
+    if vacuum == 0 {
+        // It changes the copy alone, which gives free pages back.
+        sqlx::query("PRAGMA auto_vacuum = INCREMENTAL")
+            .execute(&mut database)
+            .await?;
+    }
     sqlx::query("VACUUM INTO ?")
         .bind(target.to_string_lossy().into_owned())
         .execute(&mut database)

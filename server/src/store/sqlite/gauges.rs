@@ -77,7 +77,11 @@ impl SqliteStore {
             wal_bytes: wal.map_or(0, |file| integer(file.len())),
             oldest_progress_s: progress_age_s(progress, now),
             database_bytes: database.map_or(0, |file| integer(file.len())),
-            disk_free_bytes: self.local.disk.free_mb().map_or(0, |mb| integer(mb << 20)),
+            disk_free_bytes: self
+                .local
+                .disk
+                .usable_mb()
+                .map_or(0, |mb| integer(mb << 20)),
             workers_alive: 0,
             remote_slots,
             workers_failing,

@@ -1,4 +1,4 @@
-//! Maintenance: deadlines of queued jobs, retention of ended ones, and the write-ahead log.
+//! Maintenance: deadlines of queued jobs, retention of ended ones.
 
 use std::time::Duration;
 
@@ -73,12 +73,5 @@ impl SqliteStore {
             .await?;
         }
         Ok(old.len())
-    }
-
-    pub(in crate::store) async fn checkpoint_wal(&self) -> Result<(), StoreError> {
-        sqlx::query("PRAGMA wal_checkpoint(PASSIVE)")
-            .execute(&self.writer)
-            .await?;
-        Ok(())
     }
 }

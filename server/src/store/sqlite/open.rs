@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::time::Duration;
 
-use sqlx::Connection;
-use sqlx::sqlite::{SqliteConnectOptions, SqliteJournalMode, SqlitePoolOptions, SqliteSynchronous};
+use sqlx::sqlite::{
+    SqliteAutoVacuum, SqliteConnectOptions, SqliteJournalMode, SqlitePoolOptions, SqliteSynchronous,
+};
+use sqlx::{ConnectOptions, Connection};
 
 use crate::clock::Clock;
 use crate::export::files::parent;
@@ -24,13 +26,16 @@ const OLDEST_SQLITE: (u32, u32, u32) = (3, 51, 3);
 const OLDEST_SQLITE_TEXT: &str = "3.51.3";
 /// Longest wait for a lock. In WAL mode readers wait for nothing, the writer for a checkpoint at most. Much shorter
 /// than a lease, so that a worker can retry a write while it still holds its job.
-const BUSY_TIMEOUT: Duration = Duration::from_secs(2);
+pub(super) const BUSY_TIMEOUT: Duration = Duration::from_secs(2);
 /// Longest wait for a reading connection; shorter than a lease, because workers read too.
 const READER_TIMEOUT: Duration = Duration::from_secs(2);
 /// Number of reading connections.
 const READERS: u32 = 4;
 /// Page cache of the writing connection, KiB with the sign that SQLite wants: the rows and indexes of the jobs that workers have.
 const WRITER_CACHE: &str = "-16384";
+/// Size to which the write-ahead log is truncated when it starts again, and above which it is reported while a reader keeps it from that,
+/// bytes. Arbitrary: sixteen times what is written between two checkpoints.
+pub(super) const LARGEST_WAL: u64 = 64 << 20;
 
 impl SqliteStore {
     /// Opens the database at `url` (`sqlite://PATH`), creates it if it is missing, and migrates its schema.
@@ -49,12 +54,22 @@ impl SqliteStore {
         let lock = lock(&path)?;
         let local = Local::prepare(&path, None, limits, clock);
         let is_new = identity::schema_version(&path).await?.is_none();
+        if is_new {
+            // A database has it from its beginning; an older one gets it when it is restored from a backup.
+            let created = options.clone().auto_vacuum(SqliteAutoVacuum::Incremental);
+            created.connect().await?.close().await?;
+        }
         let writer = SqlitePoolOptions::new()
             .max_connections(1)
             // SQLite ends a transaction by itself when the disk is full or fails, and then cannot roll it back; sqlx
             // takes it for an open one and refuses to begin another on that connection. The pool replaces it.
             .before_acquire(|writer, _| Box::pin(async { Ok(!writer.is_in_transaction()) }))
-            .connect_with(options.clone().pragma("cache_size", WRITER_CACHE))
+            .connect_with(
+                options
+                    .clone()
+                    .pragma("cache_size", WRITER_CACHE)
+                    .pragma("journal_size_limit", LARGEST_WAL.to_string()),
+            )
             .await?;
         let version: String = sqlx::query_scalar("SELECT sqlite_version()")
             .fetch_one(&writer)
