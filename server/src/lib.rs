@@ -6,6 +6,7 @@ pub mod bench;
 pub mod cli;
 pub mod client;
 pub mod clock;
+mod control_group;
 pub mod estimate;
 pub mod export;
 mod groups;

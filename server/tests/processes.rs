@@ -14,6 +14,8 @@ use tempfile::TempDir;
 const FRETWEAR: &str = env!("CARGO_BIN_EXE_fretwear");
 /// Interval at which a job is polled.
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
+/// A variable with a secret of the service.
+const PASSWORD: &str = "PGPASSWORD";
 /// Number of polls before a test fails.
 const POLL_LIMIT: usize = 15_000;
 
@@ -41,6 +43,7 @@ impl Server {
             ])
             .arg(format!("sqlite://{}", folder.join("test.db").display()))
             .env("RUST_LOG", "off")
+            .env(PASSWORD, "secret")
             .stderr(Stdio::piped())
             .spawn()
             .expect("a server");
@@ -239,13 +242,21 @@ async fn a_killed_solving_process_is_tried_again() {
 }
 
 #[tokio::test]
-async fn solving_processes_end_with_a_killed_server() {
+async fn solving_processes_get_no_secrets_and_end_with_a_killed_server() {
     let folder = folder();
     let server = Server::start(folder.path());
     let id = server.submit(&spec(1_000_000)).await;
     server.until_computing(&id).await;
     let processes = solving_processes(&server);
     assert_eq!(processes.len(), 1);
+    let variables = |id| std::fs::read_to_string(format!("/proc/{id}/environ")).expect("text");
+    let own = variables(i32::try_from(server.child.id()).expect("an id"));
+    assert!(own.contains(PASSWORD));
+    let inherited = variables(processes[0]);
+    assert!(
+        !inherited.contains(PASSWORD) && inherited.contains("RUST_LOG"),
+        "{inherited}"
+    );
     server.signal(Signal::SIGKILL);
     drop(server);
     let alive = || processes.iter().any(|id| is_running(*id));

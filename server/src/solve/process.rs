@@ -1,5 +1,6 @@
 //! The solving process: started in a process group of its own, given its input, ended with its supervisor.
 
+use std::ffi::OsStr;
 use std::fmt;
 use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
@@ -17,6 +18,7 @@ use tokio_util::codec::{FramedRead, LinesCodec, LinesCodecError};
 use tokio_util::task::AbortOnDropHandle;
 use tracing::Instrument;
 
+use crate::control_group::memory_kills;
 use crate::solve::Line;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::solve::protocol::{COMMAND, Input};
@@ -38,6 +40,12 @@ const FAILED_ALLOCATION: &str = "memory allocation of ";
 
 /// Signals that a process causes itself.
 const CRASHES: [Signal; 5] = [SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV];
+
+/// Variables that a solving process inherits, by the beginnings of their names: no others, which may be secrets (tokens, passwords of databases
+/// and of stores of objects).
+const INHERITED: [&str; 8] = [
+    "HOME", "LANG", "LC_", "LD_", "PATH", "RUST_", "TMPDIR", "TZ",
+];
 
 /// How a solving process is started.
 #[derive(Debug)]
@@ -64,6 +72,8 @@ pub(crate) struct SolveCommand<'a> {
 #[derive(Debug)]
 pub(crate) struct SolveProcess {
     child: Child,
+    /// Kills by the kernel before it was started.
+    memory_kills: Option<u64>,
     _stdin: AbortOnDropHandle<()>,
     lines: FramedRead<ChildStdout, LinesCodec>,
     stderr: JoinHandle<String>,
@@ -96,6 +106,8 @@ pub(crate) enum ExitCause {
     Code(i32),
     /// It was killed from outside.
     Killed,
+    /// It was killed by the kernel, because memory ran out.
+    KilledForMemory,
     /// It caused this signal itself: the same input would do so again.
     Crashed(i32),
 }
@@ -129,6 +141,9 @@ impl fmt::Display for Exit {
         match self.cause {
             ExitCause::Code(code) => write!(f, "ended with code {code}")?,
             ExitCause::Killed => f.write_str("was killed")?,
+            ExitCause::KilledForMemory => f.write_str(
+                "was killed by the kernel, because the memory of the machine or of its control group ran out",
+            )?,
             ExitCause::Crashed(signal) => write!(f, "crashed with signal {signal}")?,
         }
         f.write_str(&self.details())
@@ -155,7 +170,16 @@ impl SolveCommand<'_> {
         if self.own_group {
             command.process_group(0);
         }
+        let is_inherited = |name: &OsStr| {
+            let name = name.to_string_lossy();
+            INHERITED
+                .iter()
+                .any(|beginning| name.starts_with(beginning))
+        };
+        let variables = std::env::vars_os().filter(|(name, _)| is_inherited(name));
+        command.env_clear().envs(variables);
         let input = Input::lines(self.spec, self.checkpoint)?;
+        let memory_kills = memory_kills();
         let mut child = command.spawn()?;
         let missing = || std::io::Error::other("the process has no pipe");
         let stdin = child.stdin.take().ok_or_else(missing)?;
@@ -164,6 +188,7 @@ impl SolveCommand<'_> {
         let sending = tokio::spawn(send_input(stdin, input).in_current_span());
         Ok(SolveProcess {
             child,
+            memory_kills,
             _stdin: AbortOnDropHandle::new(sending),
             lines: FramedRead::new(stdout, LinesCodec::new_with_max_length(LINE_LIMIT)),
             stderr: tokio::spawn(log_stderr(stderr).in_current_span()),
@@ -188,7 +213,12 @@ impl SolveProcess {
     pub(crate) async fn wait(&mut self) -> Exit {
         let waited = tokio::time::timeout(EXIT_TIMEOUT, self.child.wait()).await;
         let cause = if let Ok(status) = waited {
-            status.map_or(ExitCause::Killed, ExitCause::from)
+            match status.map_or(ExitCause::Killed, ExitCause::from) {
+                ExitCause::Killed if has_killed_since(self.memory_kills) => {
+                    ExitCause::KilledForMemory
+                }
+                cause => cause,
+            }
         } else {
             tracing::warn!("a solving process closed its output but did not exit; it is killed");
             self.kill().await;
@@ -214,6 +244,12 @@ impl SolveProcess {
             tracing::warn!(%error, "a solving process could not be killed");
         }
     }
+}
+
+/// Checks whether the kernel has killed a process for lack of memory since a number of kills was read.
+fn has_killed_since(before: Option<u64>) -> bool {
+    let kills = memory_kills().zip(before);
+    kills.is_some_and(|(now, before)| now > before)
 }
 
 /// Writes the input of a process, which may be slow to read it, and then holds the pipe open: its end tells the process

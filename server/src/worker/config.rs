@@ -6,6 +6,7 @@ use std::time::Duration;
 use nix::sys::sysinfo::sysinfo;
 
 use crate::backoff::Backoff;
+use crate::control_group;
 
 /// Memory limit of a solving process over its estimate: the estimate controls admission, the limit only protects the
 /// machine from one job.
@@ -96,9 +97,10 @@ impl WorkerConfig {
     }
 }
 
-/// Returns the default memory of all solving processes together.
+/// Returns the default memory of all solving processes together: of this machine, or of the control group if it is limited.
 fn machine_memory_mb() -> i64 {
-    let total = sysinfo().map_or(0, |info| info.ram_total() >> 20);
+    let total = sysinfo().map_or(0, |info| info.ram_total());
+    let total = control_group::memory_limit().map_or(total, |limit| limit.min(total)) >> 20;
     let share = total.saturating_mul(MEMORY_SHARE_PERCENT) / 100;
     i64::try_from(share).unwrap_or(i64::MAX).max(MIN_MEMORY_MB)
 }

@@ -24,6 +24,9 @@ pub(super) fn end_by_exit(last: Option<Line>, exit: &Exit) -> End {
         (Some(Line::Stopped), _) => {
             End::without_result(Transition::Release, "its solving process was asked to stop")
         }
+        (_, ExitCause::KilledForMemory) => {
+            failed(Outcome::OutOfMemory, format!("the solving process {exit}"))
+        }
         (_, ExitCause::Killed) => {
             End::without_result(Transition::WorkerLost, "its solving process was killed")
         }
@@ -88,6 +91,12 @@ mod tests {
     fn only_a_process_that_was_ended_from_outside_is_tried_again() {
         let cases = [
             (None, ExitCause::Killed, Transition::WorkerLost, None),
+            (
+                None,
+                ExitCause::KilledForMemory,
+                Transition::Fail,
+                Some(Outcome::OutOfMemory),
+            ),
             (
                 None,
                 ExitCause::Code(EXIT_FILE_NOT_WRITTEN),
