@@ -2,7 +2,6 @@
 
 use std::io::{Read, Write};
 use std::ops::ControlFlow;
-use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -20,7 +19,9 @@ use crate::export::files::FilesError;
 use crate::solve;
 use crate::solve::checkpoint::CheckpointPolicy;
 use crate::solve::process::NAME;
-use crate::solve::protocol::{COMMAND, EXIT_FILE_NOT_WRITTEN, EXIT_ORPHANED, Input};
+use crate::solve::protocol::{
+    COMMAND, EXIT_DISK_FULL, EXIT_FILE_NOT_WRITTEN, EXIT_ORPHANED, Input,
+};
 use crate::solve::{Failure, FieldsFile, Line};
 use crate::spec;
 
@@ -62,7 +63,7 @@ pub(super) fn run(arguments: &ChildArguments) -> Ended {
     let every = Duration::from_millis(arguments.checkpoint_every_ms);
     let policy = CheckpointPolicy::new(every, Arc::clone(&stop));
     let solved = solve::run_from((&resolved).into(), from, &policy, &mut |line| match line {
-        Line::Fields(fields) => store(&arguments.folder, &fields, &stop),
+        Line::Fields(fields) => store(arguments, &fields, &stop),
         line => write(&line),
     });
     report(&match solved {
@@ -101,10 +102,10 @@ fn end_with_supervisor() {
     std::process::exit(EXIT_ORPHANED);
 }
 
-/// Writes fields into the attempt's folder and reports the file. A failed write is not the job's fault: while the disk
+/// Writes fields into the attempt's folder and reports the file. A failed write is not the job's fault: while a disk that is waited for
 /// is full, the write is retried until the process is asked to stop; after any other error the process exits without an
 /// outcome, and the job is attempted again.
-fn store(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> ControlFlow<()> {
+fn store(arguments: &ChildArguments, fields: &FieldsFile, stop: &AtomicBool) -> ControlFlow<()> {
     let FieldsFile {
         name,
         cycle,
@@ -112,13 +113,17 @@ fn store(folder: &Path, fields: &FieldsFile, stop: &AtomicBool) -> ControlFlow<(
         bytes,
     } = fields;
     let mut logged = false;
-    while let Err(error) = files::write_atomically(folder, name, bytes) {
+    while let Err(error) = files::write_atomically(&arguments.folder, name, bytes) {
         if !logged {
             write_err(&error);
             logged = true;
         }
         match error {
-            FilesError::Write { cause, .. } if files::is_full(&cause) => {}
+            FilesError::Write { cause, .. } if files::is_full(&cause) => {
+                if !arguments.waits_for_disk {
+                    std::process::exit(EXIT_DISK_FULL);
+                }
+            }
             _ => std::process::exit(EXIT_FILE_NOT_WRITTEN),
         }
         if stop.load(Ordering::Relaxed) {

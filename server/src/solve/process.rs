@@ -64,6 +64,8 @@ pub(crate) struct SolveCommand<'a> {
     pub(crate) threads: usize,
     /// Memory limit, MB.
     pub(crate) memory_limit_mb: Option<i64>,
+    /// Whether it waits while the disk of the folder is full; otherwise it ends.
+    pub(crate) waits_for_disk: bool,
     /// Whether it gets a process group of its own; otherwise the signals of a terminal reach it too.
     pub(crate) own_group: bool,
 }
@@ -160,6 +162,9 @@ impl SolveCommand<'_> {
         command.args(["--threads", &self.threads.to_string()]);
         if let Some(limit) = self.memory_limit_mb {
             command.args(["--memory-limit-mb", &limit.to_string()]);
+        }
+        if self.waits_for_disk {
+            command.arg("--waits-for-disk");
         }
         command
             .arg(self.folder)

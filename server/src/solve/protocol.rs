@@ -22,6 +22,9 @@ pub(crate) const EXIT_ORPHANED: i32 = 3;
 /// Exit code of a solving process that could not write a file: not a failure of the solve, so the job is tried again.
 pub(crate) const EXIT_FILE_NOT_WRITTEN: i32 = 4;
 
+/// Exit code of a solving process whose files have no space on the disk: a fault of the machine, which gives the job back.
+pub(crate) const EXIT_DISK_FULL: i32 = 5;
+
 /// One line of a solving process, in order; the last one is `Summary`, `Failed` or `Stopped`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "event", content = "data", rename_all = "snake_case")]

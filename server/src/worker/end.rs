@@ -7,7 +7,7 @@ use api::job::Outcome;
 use crate::queue::Transition;
 use crate::solve::Line;
 use crate::solve::process::{Exit, ExitCause};
-use crate::solve::protocol::EXIT_FILE_NOT_WRITTEN;
+use crate::solve::protocol::{EXIT_DISK_FULL, EXIT_FILE_NOT_WRITTEN};
 use crate::store::End;
 
 /// Returns the end of a job. A result, a failure and a crash are final; a job whose process was killed from outside is
@@ -30,6 +30,10 @@ pub(super) fn end_by_exit(last: Option<Line>, exit: &Exit) -> End {
         (_, ExitCause::Killed) => {
             End::without_result(Transition::WorkerLost, "its solving process was killed")
         }
+        (_, ExitCause::Code(EXIT_DISK_FULL)) => declined(format!(
+            "its solving process had no disk space for its files{}",
+            exit.details()
+        )),
         (_, ExitCause::Code(EXIT_FILE_NOT_WRITTEN)) => End::without_result(
             Transition::WorkerLost,
             "its solving process could not write its files",
@@ -101,6 +105,12 @@ mod tests {
                 None,
                 ExitCause::Code(EXIT_FILE_NOT_WRITTEN),
                 Transition::WorkerLost,
+                None,
+            ),
+            (
+                None,
+                ExitCause::Code(EXIT_DISK_FULL),
+                Transition::Decline,
                 None,
             ),
             (

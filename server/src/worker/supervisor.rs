@@ -147,6 +147,7 @@ fn start<E: Employer>(
         checkpoint_every: config.checkpoint_every,
         threads,
         memory_limit_mb: Some(config.memory_limit_mb(claim.memory_mb)),
+        waits_for_disk: E::WAITS_FOR_DISK,
         own_group: true,
     }
     .spawn()

@@ -42,6 +42,7 @@ async fn run(program: &Path, spec: &str) -> Result<Result<Found, String>, LineEr
         checkpoint_every: NO_CHECKPOINTS,
         threads: 1,
         memory_limit_mb: None,
+        waits_for_disk: false,
         own_group: false,
     };
     let mut process = command.spawn().map_err(LineError::Read)?;

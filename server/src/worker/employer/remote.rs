@@ -142,6 +142,8 @@ impl Remote {
 }
 
 impl Employer for Remote {
+    const WAITS_FOR_DISK: bool = false;
+
     async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, EmployerError> {
         let body = ClaimBody {
             program: PROGRAM.to_owned(),

@@ -19,6 +19,8 @@ use crate::worker::computed::Computed;
 use crate::worker::manifest::{Documents, make_documents};
 
 impl Employer for Store {
+    const WAITS_FOR_DISK: bool = true;
+
     async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, EmployerError> {
         if self.disk().shortage().is_some() {
             return Ok(Vec::new());

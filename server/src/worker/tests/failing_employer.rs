@@ -45,6 +45,8 @@ fn failed() -> EmployerError {
 }
 
 impl Employer for Failing {
+    const WAITS_FOR_DISK: bool = true;
+
     async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, EmployerError> {
         let asked = (request.request.number, request.capacity.slots);
         self.asked.lock().expect("no panic").push(asked);
