@@ -2,7 +2,7 @@
 //!
 //! The reserved part is a file beside the database. It is removed when a write fails because the disk is full, so that
 //! cancel requests, deletions and leases are written all the same; until it can be allocated again, other writes are
-//! refused, or they would use up the space.
+//! refused, or they would use up the space. It stays when the service ends, so that the service can start on a disk that is full.
 
 use std::fs::File;
 use std::io::Write;
@@ -44,6 +44,8 @@ impl DataDisk {
             free_in_database: AtomicU64::new(0),
             is_database_removed: AtomicBool::new(false),
         };
+        // The start itself needs what a process before this one has reserved, if the disk is full.
+        disk.remove();
         disk.reserve_again();
         disk
     }
@@ -159,12 +161,6 @@ impl DataDisk {
     }
 }
 
-impl Drop for DataDisk {
-    fn drop(&mut self) {
-        self.remove();
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -214,6 +210,6 @@ mod tests {
         disk.reserve_again();
         assert!(disk.check().is_ok());
         drop(disk);
-        assert!(!reserve.exists());
+        assert!(reserve.exists(), "the next process needs it");
     }
 }

@@ -80,8 +80,6 @@ impl Local {
     ) -> Self {
         let own = machine.map_or_else(String::new, |name| format!(".{name}"));
         let reserve = beside(files, &format!("{own}.reserve"));
-        // Of a process that was killed: whatever space there is is needed now.
-        let _ = std::fs::remove_file(&reserve);
         let (changes, _) = broadcast::channel(CHANGE_CAPACITY);
         Self {
             changes,
