@@ -19,6 +19,7 @@ mod plan;
 mod probe;
 mod runtime;
 mod serve;
+mod signals;
 mod solve;
 mod specification;
 mod study;

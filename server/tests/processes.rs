@@ -32,7 +32,11 @@ impl Server {
     }
 
     fn start_program(program: &Path, folder: &Path) -> Self {
-        let mut child = Command::new(program)
+        Self::start_command(Command::new(program), folder)
+    }
+
+    fn start_command(mut command: Command, folder: &Path) -> Self {
+        let mut child = command
             .args([
                 "serve",
                 "--listen",
@@ -315,6 +319,31 @@ async fn a_graceful_stop_costs_no_attempt_and_ends_open_streams() {
         (&json!("running"), &json!(1)),
         "{job}"
     );
+}
+
+#[tokio::test]
+async fn a_hangup_ends_a_service_as_a_request_to_terminate_does_unless_it_is_ignored() {
+    let folder = folder();
+    let mut server = Server::start(folder.path());
+    let id = server.submit(&spec(1_000_000)).await;
+    server.until_computing(&id).await;
+    server.signal(Signal::SIGHUP);
+    assert!(server.child.wait().expect("an end").success());
+    drop(server);
+    let mut command = Command::new("nohup");
+    command.arg(FRETWEAR).stdout(Stdio::null());
+    let mut server = Server::start_command(command, folder.path());
+    let job = server.until_computing(&id).await;
+    assert_eq!(job["attempts"], 1, "{job}");
+    server.signal(Signal::SIGHUP);
+    // The second signal is handled after the first one.
+    server
+        .until(&id, |later| {
+            later["progress"]["cycle"].as_u64() > job["progress"]["cycle"].as_u64()
+        })
+        .await;
+    server.signal(Signal::SIGTERM);
+    assert!(server.child.wait().expect("an end").success());
 }
 
 /// A copy of the program in a folder, which may be changed.

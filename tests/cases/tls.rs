@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use nix::sys::signal::Signal;
 use tests::{Certificates, RemoteWorker, Server, fretwear};
 
 fn text(path: &Path) -> &str {
@@ -47,6 +48,36 @@ fn workers_and_commands_use_https_with_the_authority_that_they_are_given() {
         &[&["list", "--server", &server.base], &ca[..]].concat(),
     );
     assert!(list.stdout.contains("succeeded"), "{}", list.stdout);
+}
+
+#[test]
+fn a_hangup_lets_a_service_read_its_certificate_again() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let first = Certificates::new(folder.path(), "127.0.0.1");
+    let options = [
+        "--tls-certificate",
+        text(&first.certificate),
+        "--tls-key",
+        text(&first.key),
+    ];
+    let server = Server::without_workers(folder.path(), &options);
+    let renewed = folder.path().join("renewed");
+    std::fs::create_dir(&renewed).expect("a folder");
+    let second = Certificates::new(&renewed, "127.0.0.1");
+    let is_trusted = |authority: &Path| {
+        let list = ["list", "--server", &server.base, "--ca", text(authority)];
+        fretwear(folder.path(), &list).code == Some(0)
+    };
+    // Half of a renewal changes nothing.
+    std::fs::copy(&second.certificate, &first.certificate).expect("copied");
+    server.signal(Signal::SIGHUP);
+    assert!(is_trusted(&first.authority));
+    std::fs::copy(&second.key, &first.key).expect("copied");
+    server.signal(Signal::SIGHUP);
+    while !is_trusted(&second.authority) {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    assert!(!is_trusted(&first.authority));
 }
 
 #[test]

@@ -10,7 +10,7 @@ use uuid::Uuid;
 
 use crate::cli::client::follow;
 use crate::cli::runtime::{block_on, or_processors};
-use crate::cli::serve::until_signal;
+use crate::cli::signals::until_signal;
 use crate::cli::table;
 use crate::cli::terminal::{Ended, failed, write_err, write_out};
 use crate::client::{Client, ClientError};

@@ -10,7 +10,7 @@ use clap::{Args, Subcommand};
 
 use crate::cli::arguments::EmployerOptions;
 use crate::cli::runtime::block_on;
-use crate::cli::serve::until_signal;
+use crate::cli::signals::until_signal;
 use crate::cli::terminal::{Ended, failed, write_out};
 use crate::client::Client;
 use crate::placement::slurm::{SlurmError, SlurmWorkers, Tasks};

@@ -1,12 +1,13 @@
 //! `fretwear serve`: the service.
 
 use nix::sys::resource::{Resource, getrlimit, setrlimit};
-use tokio::signal::unix::{SignalKind, signal};
 
 use crate::cli::access::warn_of_umask;
 use crate::cli::arguments::{LogFormat, ServeArguments};
 use crate::cli::runtime::block_on;
+use crate::cli::signals::{Asked, Signals};
 use crate::cli::terminal::{Ended, failed, write_err};
+use crate::http::Tls;
 use crate::objects::Objects;
 use crate::program;
 use crate::service::{Config, Service};
@@ -42,7 +43,7 @@ pub(super) fn run(arguments: ServeArguments) -> Ended {
             write_err(format_args!("fretwear serves on {scheme}://{address}"));
         }
         let ended = tokio::select! {
-            ended = until_signal() => ended.map_err(failed),
+            ended = until_end(tls.as_ref()) => ended.map_err(failed),
             () = service.ended() => Err(failed("another process serves the database")),
         };
         service.stop().await;
@@ -58,13 +59,16 @@ fn allow_many_files() {
     }
 }
 
-/// Returns at SIGINT (Ctrl-C) or SIGTERM.
-pub(super) async fn until_signal() -> std::io::Result<()> {
-    let mut interrupt = signal(SignalKind::interrupt())?;
-    let mut terminate = signal(SignalKind::terminate())?;
-    tokio::select! {
-        _ = interrupt.recv() => {}
-        _ = terminate.recv() => {}
+/// Returns when a signal asks for the end. SIGHUP asks a service with a certificate to read it again, and others to end.
+async fn until_end(tls: Option<&Tls>) -> std::io::Result<()> {
+    let mut signals = Signals::new()?;
+    while let (Asked::Hangup, Some(tls)) = (signals.next().await, tls) {
+        match tls.read_again() {
+            Ok(()) => tracing::info!("the certificate was read again"),
+            Err(error) => {
+                tracing::error!(%error, "the certificate could not be read again; the one before stays in use");
+            }
+        }
     }
     Ok(())
 }

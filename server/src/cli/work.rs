@@ -9,7 +9,7 @@ use tokio_util::sync::CancellationToken;
 
 use crate::cli::arguments::WorkArguments;
 use crate::cli::runtime::block_on;
-use crate::cli::serve::until_signal;
+use crate::cli::signals::until_signal;
 use crate::cli::terminal::{Ended, failed};
 use crate::program;
 use crate::worker;

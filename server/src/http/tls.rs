@@ -1,7 +1,7 @@
 //! TLS of the listener: certificate and key from PEM files.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError, RwLock};
 use std::time::Duration;
 
 use tokio::net::TcpStream;
@@ -36,7 +36,12 @@ pub enum TlsError {
 
 /// Accepts TLS connections.
 #[derive(Clone)]
-pub struct Tls(TlsAcceptor);
+pub struct Tls {
+    certificate: PathBuf,
+    key: PathBuf,
+    /// Of new connections.
+    acceptor: Arc<RwLock<TlsAcceptor>>,
+}
 
 impl std::fmt::Debug for Tls {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -50,19 +55,24 @@ impl Tls {
     /// # Errors
     /// [`TlsError`].
     pub fn read(certificate: &Path, key: &Path) -> Result<Self, TlsError> {
-        let failed = |path: &Path| {
-            let path = path.to_owned();
-            move |cause| TlsError::File { path, cause }
-        };
-        let chain = CertificateDer::pem_file_iter(certificate)
-            .and_then(Iterator::collect::<Result<Vec<_>, _>>)
-            .map_err(failed(certificate))?;
-        let private = PrivateKeyDer::from_pem_file(key).map_err(failed(key))?;
-        let mut config = ServerConfig::builder()
-            .with_no_client_auth()
-            .with_single_cert(chain, private)?;
-        config.alpn_protocols = vec![HTTP_1_1.to_vec()];
-        Ok(Self(TlsAcceptor::from(Arc::new(config))))
+        Ok(Self {
+            certificate: certificate.to_owned(),
+            key: key.to_owned(),
+            acceptor: Arc::new(RwLock::new(acceptor(certificate, key)?)),
+        })
+    }
+
+    /// Reads the files again; new connections get the certificate that is in them now.
+    ///
+    /// # Errors
+    /// [`TlsError`]; the certificate stays as it was.
+    pub fn read_again(&self) -> Result<(), TlsError> {
+        let acceptor = acceptor(&self.certificate, &self.key)?;
+        *self
+            .acceptor
+            .write()
+            .unwrap_or_else(PoisonError::into_inner) = acceptor;
+        Ok(())
     }
 
     /// Accepts a connection, or fails if its client does not complete the handshake in time.
@@ -70,6 +80,24 @@ impl Tls {
         &self,
         stream: TcpStream,
     ) -> std::io::Result<TlsStream<TcpStream>> {
-        tokio::time::timeout(HANDSHAKE_TIMEOUT, self.0.accept(stream)).await?
+        let acceptor = self.acceptor.read();
+        let acceptor = acceptor.unwrap_or_else(PoisonError::into_inner).clone();
+        tokio::time::timeout(HANDSHAKE_TIMEOUT, acceptor.accept(stream)).await?
     }
+}
+
+fn acceptor(certificate: &Path, key: &Path) -> Result<TlsAcceptor, TlsError> {
+    let failed = |path: &Path| {
+        let path = path.to_owned();
+        move |cause| TlsError::File { path, cause }
+    };
+    let chain = CertificateDer::pem_file_iter(certificate)
+        .and_then(Iterator::collect::<Result<Vec<_>, _>>)
+        .map_err(failed(certificate))?;
+    let private = PrivateKeyDer::from_pem_file(key).map_err(failed(key))?;
+    let mut config = ServerConfig::builder()
+        .with_no_client_auth()
+        .with_single_cert(chain, private)?;
+    config.alpn_protocols = vec![HTTP_1_1.to_vec()];
+    Ok(TlsAcceptor::from(Arc::new(config)))
 }

@@ -8,7 +8,7 @@ use uuid::Uuid;
 
 use crate::cli::access;
 use crate::cli::runtime::block_on;
-use crate::cli::serve::until_signal;
+use crate::cli::signals::until_signal;
 use crate::cli::terminal::{REFUSED, failed, write_err};
 use crate::client::{Client, ClientError, WrittenId};
 
