@@ -71,6 +71,23 @@ pub enum ObjectsError {
     },
 }
 
+impl ObjectsError {
+    /// Checks whether the store refuses its settings: keys, rights or the name of its bucket.
+    pub fn is_of_settings(&self) -> bool {
+        let Self::Store { cause, .. } = self else {
+            return false;
+        };
+        matches!(
+            cause.downcast_ref(),
+            Some(
+                object_store::Error::NotFound { .. }
+                    | object_store::Error::PermissionDenied { .. }
+                    | object_store::Error::Unauthenticated { .. }
+            )
+        )
+    }
+}
+
 /// A store of objects.
 #[derive(Clone)]
 pub struct Objects {

@@ -115,6 +115,7 @@ impl Service {
         let store = Store::open_with(&config.database, &config.files, config.limits).await?;
         let moves_results = config.objects.is_some();
         let store = Arc::new(store.with_objects(config.objects).await?);
+        store.test_objects().await?;
         let worker = Arc::new(config.worker);
         let reclaimed = store.reclaim_at_start(worker.lease, REMOTE_LEASE).await?;
         let (queued, ending) = (reclaimed.queued, reclaimed.ending.len());

@@ -7,7 +7,9 @@ use std::time::{Duration, Instant};
 
 use nix::sys::signal::Signal;
 use serde_json::Value;
-use tests::{RemoteWorker, S3, Server, bits, database, fretwear, fuzz_button_with_jump};
+use tests::{
+    RemoteWorker, S3, Server, bits, database, fretwear, fretwear_with, fuzz_button_with_jump,
+};
 
 const SPEC: &str = r#"{
   "name": "kept elsewhere", "labels": {"lot": "7"},
@@ -166,6 +168,19 @@ async fn pages(folder: &std::path::Path) -> i64 {
 async fn jobs_are_solved_and_read_while_the_bucket_does_not_answer() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let mut bucket = S3::start().await;
+    let absent = [
+        "serve",
+        "--listen",
+        "127.0.0.1:0",
+        "--objects",
+        "s3://absent/fretwear",
+    ];
+    let refused = fretwear_with(folder.path(), &absent, &bucket.environment());
+    assert!(
+        refused.code == Some(1) && refused.stderr.contains("s3://absent/fretwear: "),
+        "{}",
+        refused.stderr
+    );
     let address = bucket.address();
     let options = ["--objects", &address];
     let server = Server::start_in(folder.path(), &options, &bucket.environment());

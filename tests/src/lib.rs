@@ -29,7 +29,9 @@ pub use disk::Disk;
 pub use haproxy::Haproxy;
 pub use network::Network;
 pub use postgres::PostgresServer;
-pub use program::{Ran, binary, fretwear, fretwear_reading, fuzz_button_with_jump, spec};
+pub use program::{
+    Ran, binary, fretwear, fretwear_reading, fretwear_with, fuzz_button_with_jump, spec,
+};
 pub use s3::S3;
 pub use served_database::{address_of_database, use_database, use_postgresql};
 pub use server::{Log, Server};

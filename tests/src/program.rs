@@ -39,9 +39,18 @@ pub fn binary() -> PathBuf {
 /// # Panics
 /// If it cannot be started.
 pub fn fretwear(folder: &Path, arguments: &[&str]) -> Ran {
+    fretwear_with(folder, arguments, &[])
+}
+
+/// The same with variables of the environment.
+///
+/// # Panics
+/// If it cannot be started.
+pub fn fretwear_with(folder: &Path, arguments: &[&str], environment: &[(&str, &Path)]) -> Ran {
     let output = Command::new(binary())
         .current_dir(folder)
         .args(arguments)
+        .envs(environment.iter().copied())
         .output()
         .expect("the binary can be started");
     ran(&output)

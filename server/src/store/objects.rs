@@ -8,6 +8,7 @@ use std::collections::HashMap;
 use std::fmt::Display;
 use std::path::Path;
 use std::sync::atomic::Ordering;
+use std::time::Duration;
 
 use futures_util::{StreamExt, stream};
 use tokio::sync::Semaphore;
@@ -24,6 +25,8 @@ const JOBS: usize = 512;
 const READ: usize = 32;
 /// Objects that are written at the same time. Arbitrary: an object takes some 10 to 100 ms.
 const WRITES: usize = 32;
+/// Longest wait for the store of objects at the start.
+const LONGEST_TEST: Duration = Duration::from_secs(5);
 /// Those of them that have files, whose parts are in memory; one alone where files are in rows.
 const LARGE_WRITES: usize = 4;
 
@@ -79,6 +82,38 @@ impl Store {
         };
         self.local().objects_checked.get_or_try_init(check).await?;
         Ok(())
+    }
+
+    /// Reads and writes the mark of the store of objects, to find settings that it refuses. Any other error is logged: results wait in the database
+    /// until the store answers.
+    ///
+    /// # Errors
+    /// [`StoreError`] for settings that it refuses.
+    pub async fn test_objects(&self) -> Result<(), StoreError> {
+        let Some(objects) = &self.local().objects else {
+            return Ok(());
+        };
+        let test = async {
+            self.check_mark(objects).await?;
+            // A restored copy may read only.
+            if self.moves_results().await? {
+                objects.mark().await?;
+            }
+            Ok(())
+        };
+        let tested = tokio::time::timeout(LONGEST_TEST, test).await;
+        let no_answer = |_| {
+            let cause = format!("no answer within {LONGEST_TEST:?}");
+            Err(objects.failed(cause).into())
+        };
+        match tested.unwrap_or_else(no_answer) {
+            Err(StoreError::Objects(error)) if error.is_of_settings() => Err(error.into()),
+            Err(error) => {
+                tracing::error!(%error, objects = objects.location(), "the store of objects cannot be used at present");
+                Ok(())
+            }
+            Ok(()) => Ok(()),
+        }
     }
 
     /// Moves results of succeeded jobs to the store of objects, of a limited number of jobs. Returns these jobs; their files are
