@@ -79,9 +79,20 @@ impl PostgresStore {
     }
 }
 
-/// A query of columns of jobs by the conditions, the order and the limits of a filter, with what they are ordered by.
+/// A query of columns of jobs by the conditions, the order and the limits of a filter, with what they are ordered by. The columns are read for
+/// the page alone, whose ids are found first.
 fn listing(columns: &str, filter: &Filter) -> QueryBuilder<Postgres> {
+    let direction = if filter.order.descending {
+        " DESC NULLS LAST"
+    } else {
+        " ASC NULLS LAST"
+    };
+    let has_value = filter.order.key.kind() != OrderKind::Id;
     let mut query = QueryBuilder::new(format!("SELECT {columns}"));
+    if has_value {
+        query.push(format!(", {ORDER_VALUE}"));
+    }
+    query.push(" FROM (SELECT id AS listed");
     match filter.order.key.kind() {
         OrderKind::Id => {}
         OrderKind::Text => {
@@ -100,15 +111,17 @@ fn listing(columns: &str, filter: &Filter) -> QueryBuilder<Postgres> {
     push_place(&mut query, filter);
     query.push(" ORDER BY ");
     push_order_key(&mut query, filter);
-    query.push(if filter.order.descending {
-        " DESC NULLS LAST"
-    } else {
-        " ASC NULLS LAST"
-    });
-    if filter.order.key != OrderKey::Created {
+    query.push(direction);
+    if has_value {
         query.push(", id DESC");
     }
     query.push(" LIMIT ").push_bind(i64::from(filter.limit));
+    query.push(") AS page JOIN jobs ON id = listed ORDER BY ");
+    query.push(if has_value { ORDER_VALUE } else { "id" });
+    query.push(direction);
+    if has_value {
+        query.push(", id DESC");
+    }
     query
 }
 

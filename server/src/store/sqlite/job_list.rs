@@ -80,9 +80,20 @@ impl SqliteStore {
     }
 }
 
-/// A query of columns of jobs by the conditions, the order and the limits of a filter, with what they are ordered by.
+/// A query of columns of jobs by the conditions, the order and the limits of a filter, with what they are ordered by. The columns are read for
+/// the page alone, whose ids are found first.
 fn listing(columns: &str, filter: &Filter) -> QueryBuilder<Sqlite> {
+    let direction = if filter.order.descending {
+        " DESC NULLS LAST"
+    } else {
+        " ASC NULLS LAST"
+    };
+    let has_value = filter.order.key.kind() != OrderKind::Id;
     let mut query = QueryBuilder::new(format!("SELECT {columns}"));
+    if has_value {
+        query.push(format!(", {ORDER_VALUE}"));
+    }
+    query.push(" FROM (SELECT id AS listed");
     match filter.order.key.kind() {
         OrderKind::Id => {}
         OrderKind::Text => {
@@ -101,15 +112,17 @@ fn listing(columns: &str, filter: &Filter) -> QueryBuilder<Sqlite> {
     push_place(&mut query, filter);
     query.push(" ORDER BY ");
     push_order_key(&mut query, filter);
-    query.push(if filter.order.descending {
-        " DESC NULLS LAST"
-    } else {
-        " ASC NULLS LAST"
-    });
-    if filter.order.key != OrderKey::Created {
+    query.push(direction);
+    if has_value {
         query.push(", id DESC");
     }
     query.push(" LIMIT ").push_bind(filter.limit);
+    query.push(") CROSS JOIN jobs ON id = listed ORDER BY ");
+    query.push(if has_value { ORDER_VALUE } else { "id" });
+    query.push(direction);
+    if has_value {
+        query.push(", id DESC");
+    }
     query
 }
 
@@ -224,13 +237,14 @@ fn push_conditions(query: &mut QueryBuilder<Sqlite>, filter: &Filter) {
     if let Some(text) = &filter.text {
         // SQLite's `lower` knows ASCII alone: other letters are compared as they are.
         let text = text.to_ascii_lowercase();
+        // The index has name and id of all jobs; their rows are many times as long.
         query
-            .push(" AND (instr(lower(coalesce(spec ->> '$.name', '')), ")
+            .push(" AND id IN (SELECT id FROM jobs INDEXED BY jobs_by_name WHERE instr(lower(spec ->> '$.name'), ")
             .push_bind(text.clone())
             .push(") OR instr(id, ")
             .push_bind(text.clone())
-            .push(") OR id IN (SELECT job_id FROM labels WHERE instr(lower(value), ")
+            .push(") UNION ALL SELECT job_id FROM labels WHERE instr(lower(value), ")
             .push_bind(text)
-            .push(")))");
+            .push("))");
     }
 }

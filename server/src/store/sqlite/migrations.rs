@@ -5,7 +5,7 @@ use sqlx::migrate::Migrator;
 use crate::store::migrations::{self, file, migrator_of};
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 33] = [
+const FILES: [(&str, &str); 34] = [
     file!("sqlite/0001_jobs.sql"),
     file!("sqlite/0002_labels.sql"),
     file!("sqlite/0003_events.sql"),
@@ -39,6 +39,7 @@ const FILES: [(&str, &str); 33] = [
     file!("sqlite/0071_avoided_workers.sql"),
     file!("sqlite/0072_tokens_of_leases.sql"),
     file!("sqlite/0073_service_time.sql"),
+    file!("sqlite/0074_list_indexes.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.
