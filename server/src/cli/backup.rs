@@ -10,7 +10,7 @@ use crate::store::{BackupError, CopySummary, backup, restore, verify};
 pub(super) fn run(database: &str, into: &Path) -> Ended {
     let copied = block_on(backup(database, into))?;
     let damaged = report(copied, "copied and verified")?;
-    refuse(damaged, "copied as they are")
+    refuse(damaged, "they are copied as they are")
 }
 
 pub(super) fn run_restore(from: &Path, database: &str) -> Ended {
@@ -71,6 +71,6 @@ fn refuse(damaged: usize, treated: &str) -> Ended {
         return Ok(());
     }
     Err(failed(format_args!(
-        "{damaged} damaged results were found; they are {treated}"
+        "{damaged} damaged results were found; {treated}"
     )))
 }
