@@ -122,7 +122,7 @@ async fn into_folder(app: &App, body: ArrivingBody, sent: Sent) -> Result<NewCon
     create_folder(&folder)?;
     let unfinished = folder.join(format!("{}.{}.unfinished", sent.name, Uuid::now_v7()));
     let renamed = match receive(body, &unfinished, &sent).await {
-        Ok(_) => tokio::fs::rename(&unfinished, folder.join(&sent.name))
+        Ok(_) => rename(&unfinished, &folder, &sent.name)
             .await
             .map_err(FileError::Write),
         Err(error) => Err(error),
@@ -132,6 +132,12 @@ async fn into_folder(app: &App, body: ArrivingBody, sent: Sent) -> Result<NewCon
         let _ = tokio::fs::remove_file(&unfinished).await;
     }
     renamed.map(|()| NewContent::Folder)
+}
+
+/// Gives a file in a folder its name, durably.
+async fn rename(unfinished: &Path, folder: &Path, name: &str) -> std::io::Result<()> {
+    tokio::fs::rename(unfinished, folder.join(name)).await?;
+    tokio::fs::File::open(folder).await?.sync_all().await
 }
 
 /// Writes a body as a file and compares its checksum; its length.
