@@ -140,6 +140,8 @@ impl From<StoreError> for ProblemResponse {
             }
             StoreError::Objects(_) => ProblemType::RESULTS_UNREACHABLE
                 .with_detail("the store of objects does not answer; send the request again"),
+            error if error.is_locked() => ProblemType::BUSY
+                .with_detail("another program has locked the database; send the request again"),
             error if error.is_transient() => {
                 ProblemType::BUSY.with_detail("the database is busy; send the request again")
             }

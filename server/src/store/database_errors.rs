@@ -8,6 +8,8 @@ use crate::store::{BackupError, StoreError};
 /// whose disk is full: BUSY, LOCKED, IOERR, FULL (sqlite.org/rescode.html).
 const TRANSIENT: [u32; 4] = [5, 6, 10, FULL];
 const FULL: u32 = 13;
+/// BUSY and LOCKED.
+const LOCKS: [u32; 2] = [5, 6];
 const NO_DATABASE: u32 = 26;
 
 /// PostgreSQL's classes and codes for what may succeed later (postgresql.org/docs/current/errcodes-appendix.html): the connection
@@ -40,6 +42,17 @@ impl From<sqlx::Error> for StoreError {
             is_disk_full,
             cause: error.into(),
         }
+    }
+}
+
+impl StoreError {
+    /// Checks whether another program holds a lock of the database.
+    pub fn is_locked(&self) -> bool {
+        let Self::Database { cause, .. } = self else {
+            return false;
+        };
+        let code = cause.downcast_ref().and_then(result_code);
+        code.is_some_and(|code| LOCKS.contains(&code))
     }
 }
 

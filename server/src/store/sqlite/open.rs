@@ -29,6 +29,8 @@ const OLDEST_SQLITE_TEXT: &str = "3.51.3";
 pub(super) const BUSY_TIMEOUT: Duration = Duration::from_secs(2);
 /// Longest wait for a reading connection; shorter than a lease, because workers read too.
 const READER_TIMEOUT: Duration = Duration::from_secs(2);
+/// Longest wait for the writing connection, which others have before. Arbitrary: some hundred transactions.
+const WRITER_TIMEOUT: Duration = Duration::from_secs(5);
 /// Number of reading connections.
 const READERS: u32 = 4;
 /// Page cache of the writing connection, KiB with the sign that SQLite wants: the rows and indexes of the jobs that workers have.
@@ -61,6 +63,7 @@ impl SqliteStore {
         }
         let writer = SqlitePoolOptions::new()
             .max_connections(1)
+            .acquire_timeout(WRITER_TIMEOUT)
             // SQLite ends a transaction by itself when the disk is full or fails, and then cannot roll it back; sqlx
             // takes it for an open one and refuses to begin another on that connection. The pool replaces it.
             .before_acquire(|writer, _| Box::pin(async { Ok(!writer.is_in_transaction()) }))

@@ -105,5 +105,9 @@ mod tests {
             (status.as_u16(), problem["type"].as_str()),
             (503, Some("/problems/busy"))
         );
+        assert_eq!(
+            problem["detail"],
+            "another program has locked the database; send the request again"
+        );
     }
 }
