@@ -99,8 +99,16 @@ impl DataDisk {
         Some(format!("waiting for disk space: {shortage}"))
     }
 
-    /// Fails while the reserved part is needed for other writes.
+    /// Notes that the file of the database is not at its path any more; whether this was known.
+    pub(super) fn note_removed_database(&self) -> bool {
+        self.is_database_removed.swap(true, Ordering::AcqRel)
+    }
+
+    /// Fails while the reserved part is needed for other writes, or if what is written would be lost.
     pub(super) fn check(&self) -> Result<(), StoreError> {
+        if self.is_database_removed.load(Ordering::Acquire) {
+            return Err(StoreError::Removed);
+        }
         if self.is_full() {
             return Err(StoreError::DiskFull);
         }

@@ -127,6 +127,11 @@ pub enum StoreError {
         /// Whether the disk of the database is full.
         is_disk_full: bool,
     },
+    /// The file of the database is not at its path any more: whatever is written is lost with the process.
+    #[error(
+        "the file of the database was removed or replaced; nothing is accepted until the service is started again"
+    )]
+    Removed,
     /// The disk was full and still is: the space that was reserved on it is for writes that free some.
     #[error("no space left on the data disk")]
     DiskFull,

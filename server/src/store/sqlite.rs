@@ -56,6 +56,8 @@ pub(in crate::store) struct SqliteStore {
     writer: SqlitePool,
     readers: SqlitePool,
     path: PathBuf,
+    /// Device and number of the file.
+    file: (u64, u64),
     /// Id of this process as the owner of the database.
     owner: Uuid,
     wal: PathBuf,

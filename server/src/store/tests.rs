@@ -228,14 +228,7 @@ impl Fixture {
     }
 
     pub(in crate::store) async fn queued_with(&self, options: SubmitOptions) -> Uuid {
-        let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
-        let plan = crate::estimate::Estimate::of(&resolved).plan(&resolved, None);
-        let job = NewJob {
-            spec: resolved.spec,
-            plan,
-            options,
-        };
-        self.store.queue(&job).await
+        self.store.queue(&new_job(options)).await
     }
 
     pub(in crate::store) async fn claimed(&self, expires_at: i64) -> Claim {
@@ -344,5 +337,16 @@ pub(crate) fn end(transition: Transition) -> End {
         reason: Some("because".to_owned()),
         outcome: Some(Outcome::Completed),
         summary: None,
+    }
+}
+
+/// A job to be queued.
+pub(in crate::store) fn new_job(options: SubmitOptions) -> NewJob {
+    let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
+    let plan = crate::estimate::Estimate::of(&resolved).plan(&resolved, None);
+    NewJob {
+        spec: resolved.spec,
+        plan,
+        options,
     }
 }

@@ -1,6 +1,7 @@
 //! Opening the store: lock file, connections, version check, migrations.
 
 use std::fs::{File, TryLockError};
+use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::time::Duration;
@@ -95,8 +96,13 @@ impl SqliteStore {
             .acquire_timeout(READER_TIMEOUT)
             .connect_with(options.read_only(true))
             .await?;
+        let file = std::fs::metadata(&path).map_err(|cause| StoreError::Prepare {
+            path: path.clone(),
+            cause,
+        })?;
         let store = Self {
             local,
+            file: (file.dev(), file.ino()),
             writer,
             readers,
             owner,

@@ -3,6 +3,7 @@
 //! The lock file beside the database prevents a second process, unless it was deleted or the file system has no locks. Then
 //! the row remains: a process that finds one of another process waits for a heartbeat, and refuses to serve if there is one.
 
+use std::os::unix::fs::MetadataExt;
 use std::path::Path;
 use std::time::Duration;
 
@@ -153,6 +154,10 @@ async fn row(pool: &SqlitePool) -> Result<Option<Row>, StoreError> {
 
 impl SqliteStore {
     pub(in crate::store) async fn beat(&self) -> Result<(), StoreError> {
+        let file = std::fs::metadata(&self.path).map(|file| (file.dev(), file.ino()));
+        if file.ok() != Some(self.file) && !self.local.disk.note_removed_database() {
+            tracing::error!(path = %self.path.display(), "{}", StoreError::Removed);
+        }
         let write = async || {
             let written = sqlx::query("UPDATE owner SET beats = beats + 1 WHERE id = ?")
                 .bind(self.owner.to_string())

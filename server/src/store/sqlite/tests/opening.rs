@@ -7,8 +7,8 @@ use std::time::Duration;
 use sqlx::sqlite::SqliteConnectOptions;
 use sqlx::{ConnectOptions, Connection};
 
-use crate::store::tests::Fixture;
-use crate::store::{Store, StoreError, backup, verify};
+use crate::store::tests::{Fixture, new_job};
+use crate::store::{Store, StoreError, SubmitOptions, backup, verify};
 
 #[tokio::test]
 async fn a_database_is_served_by_one_process_and_its_jobs_survive_it() {
@@ -182,4 +182,22 @@ async fn a_first_start_that_was_interrupted_is_continued() {
     let store = Store::open(&url).await.expect("a store");
     assert!(!store.disk().is_full());
     assert!(std::fs::metadata(&reserve).expect("a file").len() > 1 << 20);
+}
+
+#[tokio::test]
+async fn a_database_whose_file_was_removed_accepts_nothing_more() {
+    let fixture = Fixture::new().await;
+    let store = &fixture.store;
+    store.beat().await.expect("it is there");
+    fixture.queued().await;
+    let path = fixture.folder.path().join("test.db");
+    std::fs::remove_file(&path).expect("removed");
+    // Another file at its path is not it.
+    std::fs::write(&path, "").expect("written");
+    store.beat().await.expect("its row is there");
+    let refused = store.ready().await;
+    assert!(matches!(refused, Err(StoreError::Removed)), "{refused:?}");
+    let job = new_job(SubmitOptions::default());
+    let refused = store.submit(&job, None).await;
+    assert!(matches!(refused, Err(StoreError::Removed)), "{refused:?}");
 }
