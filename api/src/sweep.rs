@@ -80,6 +80,9 @@ pub struct Sweep {
     pub grid: Option<BTreeMap<String, Vec<Value>>>,
     /// Number of jobs that are still to be queued; 0 if it was cancelled.
     pub to_come: u64,
+    /// Number of jobs that were still to be queued when it was cancelled.
+    #[serde(default)]
+    pub never_queued: u64,
     /// Number of combinations that made no valid job, found when they were to be queued.
     pub refused: u64,
     /// Its jobs in order, or a part of them, without those that were deleted; `links.next` has the next part.

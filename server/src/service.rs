@@ -1,5 +1,6 @@
 //! The service: store, workers, maintenance and HTTP, started and stopped together.
 
+mod batch_endings;
 mod expansions;
 mod maintenance;
 mod objects;
@@ -135,6 +136,7 @@ impl Service {
         if moves_results {
             tasks.start_mover();
         }
+        tasks.start_batch_endings();
         tasks.start_queueing(&app, config.jobs_ahead);
         let router = http::router(app);
         let (mut listener, served) = (Some(listener), stopping.clone());

@@ -30,11 +30,12 @@
 //! | `note_workers` | contacts with remote workers; those without one for a day are forgotten | no |
 //! | `drain_worker` | one worker, which takes no more jobs | no |
 //! | `cancel` | a queued job ends with its `done` event; a running one is marked for its worker | no |
-//! | `cancel_batch` | none of its jobs are queued any more; then its jobs as by `cancel`, a limited number at once | no |
+//! | `note_cancellation` | none of the jobs of a batch are queued any more, the others are to be cancelled | no |
+//! | `note_deletion` | a batch is not shown any more, and is to be deleted | no; only of ended jobs |
 //! | `retry`, `retry_all` | each job; by `retry_all` a limited number at once | no; only failed and cancelled jobs |
 //! | `expire` | all queued jobs whose deadline has passed end with their `done` events | no |
 //! | `delete` | a job with all rows; files afterwards, or at the next start | no; only ended jobs |
-//! | `delete_batch` | jobs as by `delete`, a limited number at once; the batch with the last of them | no; only ended jobs |
+//! | `end_jobs_of` | jobs of such a batch as by `cancel` or `delete`, a limited number at once; the batch with the last of those | no |
 //! | `delete_older` | each job; a limited number a call | no; only ended jobs |
 //!
 //! Event numbers of a job count from 1 without gaps, in the order of the transactions; `done` is the last one. Reads
@@ -99,8 +100,8 @@ mod workers;
 
 pub use backup::{BackupError, CopySummary};
 pub use batches::{
-    BatchDetail, BatchFilter, BatchJob, BatchOverview, BatchPart, Expansion, NewBatch, NewBatchJob,
-    NewExpansion, Portion, RefusedJob, StoredBatch,
+    BatchDetail, BatchEnding, BatchFilter, BatchJob, BatchOverview, BatchPart, Expansion, NewBatch,
+    NewBatchJob, NewExpansion, Portion, RefusedJob, StoredBatch,
 };
 pub use changes::{AllChanges, Changes};
 pub use disk::DataDisk;

@@ -132,6 +132,7 @@ pub(super) fn document(batch: StoredBatch, part: BatchPart) -> Result<Sweep, Eva
         asked: overview.asked,
         grid: request.and_then(|request| request.grid),
         to_come: overview.to_come,
+        never_queued: overview.never_queued,
         refused: overview.refused,
         jobs: batch.jobs.into_iter().map(shown).collect(),
         refused_changes: batch.refused.into_iter().map(refused).collect(),

@@ -6,7 +6,7 @@ use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 
 use crate::http::App;
-use crate::service::{expansions, maintenance, objects, workers};
+use crate::service::{batch_endings, expansions, maintenance, objects, workers};
 use crate::store::{Reclaimed, Store};
 use crate::supervision::{Supervisor, TaskName, WORKER};
 use crate::worker;
@@ -105,6 +105,14 @@ impl Tasks {
         let (store, stopping) = self.shared();
         self.start(("objects", 0), move || {
             objects::move_results(Arc::clone(&store), stopping.clone())
+        });
+    }
+
+    /// Starts what cancels and deletes the jobs of large sweeps.
+    pub(super) fn start_batch_endings(&mut self) {
+        let (store, stopping) = self.shared();
+        self.start(("batch endings", 0), move || {
+            batch_endings::end_jobs(Arc::clone(&store), stopping.clone())
         });
     }
 

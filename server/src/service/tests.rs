@@ -71,6 +71,7 @@ async fn a_service_works_after_each_of_its_tasks_was_killed() {
     let url = |path: &str| format!("http://{}{path}", service.address);
     let get = |path: &str| client.get(url(path));
     let mut tasks = vec![
+        ("batch endings", 0),
         ("expansions", 0),
         ("heartbeat", 0),
         ("listener", 0),

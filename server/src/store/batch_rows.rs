@@ -24,6 +24,7 @@ pub(in crate::store) fn batch_overview(
         counts,
         asked: row.optional_integer("asked")?.map(number),
         to_come: number(row.integer("to_come")?),
+        never_queued: number(row.integer("never_queued")?),
         refused: number(row.integer("refused")?),
     })
 }

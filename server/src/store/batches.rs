@@ -19,6 +19,31 @@ pub(in crate::store) const JOBS_AT_ONCE: i64 = 100;
 /// Refused combinations that are stored with their reasons: the first ones.
 pub(in crate::store) const STORED_REFUSALS: u64 = 100;
 
+/// What is done with all jobs of a batch, a limited number at once.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BatchEnding {
+    /// They are cancelled.
+    Cancel,
+    /// They are deleted, and the batch with the last of them.
+    Delete,
+}
+
+impl BatchEnding {
+    /// As the database has it.
+    pub(in crate::store) fn as_str(self) -> &'static str {
+        match self {
+            Self::Cancel => "cancel",
+            Self::Delete => "delete",
+        }
+    }
+
+    /// The ending of this name.
+    pub(in crate::store) fn from_name(name: &str) -> Option<Self> {
+        let all = [Self::Cancel, Self::Delete];
+        all.into_iter().find(|ending| ending.as_str() == name)
+    }
+}
+
 /// A batch to be queued.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NewBatch {
@@ -119,6 +144,8 @@ pub struct BatchOverview {
     pub asked: Option<u64>,
     /// Number of jobs that are still to be queued.
     pub to_come: u64,
+    /// Number of jobs that were to be queued when the batch was cancelled.
+    pub never_queued: u64,
     /// Number of combinations that made no valid job.
     pub refused: u64,
 }

@@ -18,12 +18,15 @@ use crate::store::local::Local;
 use crate::store::postgres::PostgresStore;
 use crate::store::sqlite::SqliteStore;
 use crate::store::{
-    AllChanges, BatchDetail, BatchPart, Changes, DataDisk, Deleted, Filter, Lease, Limits, Order,
-    SnapshotPart, StoreError, StoredBatch,
+    AllChanges, BatchDetail, BatchEnding, BatchPart, Changes, DataDisk, Filter, Lease, Limits,
+    Order, SnapshotPart, StoreError, StoredBatch,
 };
 
 /// Jobs that are queued again in one transaction. Arbitrary: others wait for it.
 const RETRIED_AT_ONCE: u32 = 100;
+
+/// Transactions that cancel or delete jobs of a batch before others are attended to: a request waits for the end of a batch of a thousand jobs.
+const PORTIONS: usize = 10;
 
 /// Jobs, batches, events and results, durable.
 #[derive(Debug)]
@@ -112,15 +115,35 @@ impl Store {
         Ok(batch)
     }
 
-    /// Cancels all jobs of a batch: waiting ones end at once, running ones are ended by their workers, those to come are never queued.
-    /// If it is interrupted, it can be repeated.
+    /// Cancels or deletes jobs of a batch for which this was noted, a limited number: queued ones are cancelled at once, running ones are ended by
+    /// their workers. Returns whether some may be left.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
-    pub async fn cancel_batch(&self, id: Uuid) -> Result<(), StoreError> {
-        self.end_expansion(id).await?;
-        while self.cancel_some(id).await? {}
-        Ok(())
+    pub async fn end_jobs_of(&self, batch: Uuid, ending: BatchEnding) -> Result<bool, StoreError> {
+        for _ in 0..PORTIONS {
+            let is_left = match ending {
+                BatchEnding::Cancel => self.cancel_some(batch).await?,
+                BatchEnding::Delete => self.delete_some(batch).await?,
+            };
+            if !is_left {
+                self.forget_ending(batch, ending).await?;
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Cancels or deletes jobs of each batch for which this was noted, a limited number. Returns whether some may be left.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn end_jobs_of_batches(&self) -> Result<bool, StoreError> {
+        let mut is_left = false;
+        for (batch, ending) in self.batch_endings().await? {
+            is_left |= self.end_jobs_of(batch, ending).await?;
+        }
+        Ok(is_left)
     }
 
     /// Queues the failed and cancelled jobs again that pass a filter, each once. If it is interrupted, it can be repeated. Returns how many.
@@ -144,19 +167,6 @@ impl Store {
             page.after = next;
             if page.after.is_none() {
                 return Ok(retried);
-            }
-        }
-    }
-
-    /// Deletes a batch whose jobs have all ended, with the jobs, their events, results and files. If it is interrupted, it can be
-    /// repeated.
-    ///
-    /// # Errors
-    /// [`StoreError`] if the database fails.
-    pub async fn delete_batch(&self, id: Uuid) -> Result<Deleted, StoreError> {
-        loop {
-            if let Some(deleted) = self.delete_some(id).await? {
-                return Ok(deleted);
             }
         }
     }

@@ -4,6 +4,7 @@
 //! those that others have locked. Times are those of the database's clock. No process takes the jobs or files of another one: leases
 //! end by themselves.
 
+mod batch_endings;
 mod batches;
 mod blocks;
 mod checkpoints;

@@ -4,6 +4,7 @@
 //! process that has ended.
 
 pub(in crate::store) mod backup;
+mod batch_endings;
 mod batches;
 mod blocks;
 mod checkpoints;

@@ -6,9 +6,9 @@ use uuid::Uuid;
 
 use crate::store::operations::operations;
 use crate::store::{
-    BatchDetail, BatchFilter, BatchJob, BatchOverview, BatchPart, Cancelled, Deleted, Expansion,
-    Filter, ListPlace, Listed, NewBatch, NewJob, Portion, RequestKey, Retried, StoreError,
-    StoredBatch, StoredJob, Submitted,
+    BatchDetail, BatchEnding, BatchFilter, BatchJob, BatchOverview, BatchPart, Cancelled, Deleted,
+    Expansion, Filter, ListPlace, Listed, NewBatch, NewJob, Portion, RequestKey, Retried,
+    StoreError, StoredBatch, StoredJob, Submitted,
 };
 
 operations! {
@@ -131,12 +131,28 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn extend_batch(&self, portion: &Portion) -> Result<bool, StoreError>;
 
-    /// Lets no more jobs of a batch be queued.
-    pub(in crate::store) async fn end_expansion(&self, batch: Uuid) -> Result<(), StoreError>;
+    /// Lets no more jobs of a batch be queued, and notes that the others are to be cancelled.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn note_cancellation(&self, batch: Uuid) -> Result<(), StoreError>;
+
+    /// Notes that a batch whose jobs have all ended is to be deleted: it is not shown any more.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn note_deletion(&self, batch: Uuid) -> Result<Deleted, StoreError>;
+
+    /// Returns the batches whose jobs are to be cancelled or deleted, oldest first.
+    pub(in crate::store) async fn batch_endings(&self) -> Result<Vec<(Uuid, BatchEnding)>, StoreError>;
+
+    /// Notes that all jobs of a batch were cancelled, or that it cannot be deleted.
+    pub(in crate::store) async fn forget_ending(&self, batch: Uuid, ending: BatchEnding) -> Result<(), StoreError>;
 
     /// Cancels jobs of a batch, a limited number; returns whether some may be left.
     pub(in crate::store) async fn cancel_some(&self, batch: Uuid) -> Result<bool, StoreError>;
 
-    /// Deletes jobs of a batch, a limited number, and with the last of them the batch; returns how it ended, or `None` if some are left.
-    pub(in crate::store) async fn delete_some(&self, batch: Uuid) -> Result<Option<Deleted>, StoreError>;
+    /// Deletes jobs of a batch, a limited number, and with the last of them the batch, unless a job was queued again; returns whether some may
+    /// be left.
+    pub(in crate::store) async fn delete_some(&self, batch: Uuid) -> Result<bool, StoreError>;
 }

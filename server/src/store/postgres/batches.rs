@@ -3,28 +3,26 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-use api::job::Status;
 use sqlx::postgres::{PgConnection, PgExecutor};
 use uuid::Uuid;
 
 use crate::clock::Now;
 use crate::store::batch_rows::{batch_job, batch_overview, no_jobs, refused_job};
 use crate::store::batches::{
-    BatchDetail, BatchFilter, BatchJob, BatchOverview, BatchPart, JOBS_AT_ONCE, NewBatch,
-    StoredBatch,
+    BatchDetail, BatchFilter, BatchJob, BatchOverview, BatchPart, NewBatch, StoredBatch,
 };
 use crate::store::job_ids::new_id;
+use crate::store::postgres::PostgresStore;
 use crate::store::postgres::expansions::{insert_expansion, insert_jobs};
-use crate::store::postgres::job_rows::cancel;
-use crate::store::postgres::{PostgresStore, begin};
 use crate::store::rows::{StoredRow, integer};
-use crate::store::{Deleted, RequestKey, StoreError, Submitted};
+use crate::store::{RequestKey, StoreError, Submitted};
 
 /// The columns of an overview, of `sweeps` beside `expansions`.
 macro_rules! overviews {
     () => {
         "SELECT id, name, created_at, jobs AS asked, \
          COALESCE(CASE WHEN is_over THEN 0 ELSE jobs - next END, 0) AS to_come, \
+         COALESCE(CASE WHEN is_over THEN jobs - next ELSE 0 END, 0) AS never_queued, \
          COALESCE(refused, 0) AS refused"
     };
 }
@@ -70,7 +68,7 @@ impl PostgresStore {
         let batch = sqlx::query(concat!(
             overviews!(),
             ", plan, request FROM sweeps LEFT JOIN expansions ON expansions.sweep_id = id \
-             LEFT JOIN studies ON studies.sweep_id = id WHERE id = $1",
+             LEFT JOIN studies ON studies.sweep_id = id WHERE id = $1 AND ending IS DISTINCT FROM 'delete'",
         ))
         .bind(id)
         .fetch_optional(&self.readers)
@@ -123,7 +121,8 @@ impl PostgresStore {
         let rows = sqlx::query(concat!(
             overviews!(),
             " FROM sweeps LEFT JOIN expansions ON expansions.sweep_id = id \
-             WHERE id < $1 AND (NOT $2 OR id IN (SELECT sweep_id FROM studies)) ORDER BY id DESC LIMIT $3",
+             WHERE id < $1 AND ending IS DISTINCT FROM 'delete' AND (NOT $2 OR id IN (SELECT sweep_id FROM studies)) \
+             ORDER BY id DESC LIMIT $3",
         ))
         .bind(filter.before.unwrap_or(Uuid::max()))
         .bind(filter.with_plan)
@@ -145,84 +144,12 @@ impl PostgresStore {
     ) -> Result<bool, StoreError> {
         let found = sqlx::query_scalar(
             "SELECT EXISTS (SELECT 1 FROM sweeps LEFT JOIN studies ON sweep_id = id \
-             WHERE id = $1 AND (NOT $2 OR plan IS NOT NULL))",
+             WHERE id = $1 AND ending IS DISTINCT FROM 'delete' AND (NOT $2 OR plan IS NOT NULL))",
         )
         .bind(id)
         .bind(with_plan)
         .fetch_one(&self.readers);
         Ok(found.await?)
-    }
-
-    pub(in crate::store) async fn cancel_some(&self, batch: Uuid) -> Result<bool, StoreError> {
-        let (mut transaction, now) = self.begin().await?;
-        let mut jobs: Vec<Uuid> = Vec::new();
-        for status in [Status::Queued, Status::Running] {
-            if jobs.is_empty() {
-                jobs = sqlx::query_scalar(
-                    "SELECT id FROM jobs WHERE sweep_id = $1 AND status = $2 AND NOT cancel_requested \
-                     ORDER BY id LIMIT $3 FOR UPDATE",
-                )
-                .bind(batch)
-                .bind(status.as_str())
-                .bind(JOBS_AT_ONCE)
-                .fetch_all(&mut *transaction)
-                .await?;
-            }
-        }
-        let mut effects = Vec::with_capacity(jobs.len());
-        for job in jobs {
-            effects.push((job, cancel(&mut transaction, job, now).await?));
-        }
-        transaction.commit().await?;
-        for (job, effect) in &effects {
-            self.local.cancelled(*job, *effect);
-        }
-        // Jobs that have ended while this transaction waited for their locks are not among them.
-        Ok(!effects.is_empty())
-    }
-
-    pub(in crate::store) async fn delete_some(
-        &self,
-        batch: Uuid,
-    ) -> Result<Option<Deleted>, StoreError> {
-        let mut transaction = begin(&self.pool, None).await?;
-        let is_active: bool = sqlx::query_scalar(
-            "SELECT EXISTS (SELECT 1 FROM jobs WHERE sweep_id = $1 AND status IN ('queued', 'running')) \
-             OR EXISTS (SELECT 1 FROM expansions WHERE sweep_id = $1 AND NOT is_over)",
-        )
-        .bind(batch)
-        .fetch_one(&mut *transaction)
-        .await?;
-        if is_active {
-            return Ok(Some(Deleted::Active));
-        }
-        let jobs: Vec<Uuid> = sqlx::query_scalar(
-            "SELECT id FROM jobs WHERE sweep_id = $1 AND finished_at IS NOT NULL ORDER BY id LIMIT $2 FOR UPDATE",
-        )
-        .bind(batch)
-        .bind(JOBS_AT_ONCE)
-        .fetch_all(&mut *transaction)
-        .await?;
-        sqlx::query("DELETE FROM jobs WHERE id = ANY($1)")
-            .bind(&jobs)
-            .execute(&mut *transaction)
-            .await?;
-        let deleted = sqlx::query(
-            "DELETE FROM sweeps WHERE id = $1 AND NOT EXISTS (SELECT 1 FROM jobs WHERE sweep_id = $1)",
-        )
-        .bind(batch)
-        .execute(&mut *transaction)
-        .await?;
-        transaction.commit().await?;
-        let is_left = deleted.rows_affected() == 0 && !jobs.is_empty();
-        for job in jobs {
-            self.local.remove_files(job).await;
-            self.local.changed(job);
-        }
-        Ok((!is_left).then_some(match deleted.rows_affected() {
-            0 => Deleted::Missing,
-            _ => Deleted::Done,
-        }))
     }
 
     /// Counts the jobs of a batch by status; of a large one, every now and then.

@@ -39,14 +39,6 @@ impl PostgresStore {
         Ok(request.fetch_optional(&self.readers).await?)
     }
 
-    pub(in crate::store) async fn end_expansion(&self, batch: Uuid) -> Result<(), StoreError> {
-        sqlx::query("UPDATE expansions SET is_over = true WHERE sweep_id = $1 AND NOT is_over")
-            .bind(batch)
-            .execute(&self.pool)
-            .await?;
-        Ok(())
-    }
-
     pub(in crate::store) async fn extend_batch(
         &self,
         portion: &Portion,

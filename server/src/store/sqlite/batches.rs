@@ -10,20 +10,19 @@ use uuid::fmt::Hyphenated;
 use crate::clock::Now;
 use crate::store::batch_rows::{batch_job, batch_overview, no_jobs, refused_job};
 use crate::store::batches::{
-    BatchDetail, BatchFilter, BatchJob, BatchOverview, BatchPart, JOBS_AT_ONCE, NewBatch,
-    StoredBatch,
+    BatchDetail, BatchFilter, BatchJob, BatchOverview, BatchPart, NewBatch, StoredBatch,
 };
 use crate::store::rows::{StoredRow, integer};
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::expansions::{insert_expansion, insert_jobs};
-use crate::store::sqlite::job_rows::cancel;
 use crate::store::sqlite::queries::BEGIN;
-use crate::store::{Deleted, RequestKey, StoreError, Submitted};
+use crate::store::{RequestKey, StoreError, Submitted};
 
 /// The columns of an overview, of `sweeps` beside `expansions`.
 macro_rules! overviews {
     () => {
         "SELECT id, name, created_at, jobs AS asked, COALESCE(iif(is_over, 0, jobs - next), 0) AS to_come, \
+         COALESCE(iif(is_over, jobs - next, 0), 0) AS never_queued, \
          COALESCE(refused, 0) AS refused"
     };
 }
@@ -63,7 +62,7 @@ impl SqliteStore {
         let batch = sqlx::query(concat!(
             overviews!(),
             ", plan, request FROM sweeps LEFT JOIN expansions ON expansions.sweep_id = id \
-             LEFT JOIN studies ON studies.sweep_id = id WHERE id = ?",
+             LEFT JOIN studies ON studies.sweep_id = id WHERE id = ? AND ending IS NOT 'delete'",
         ))
         .bind(id.to_string())
         .fetch_optional(&self.readers)
@@ -118,7 +117,7 @@ impl SqliteStore {
         let rows = sqlx::query(concat!(
             overviews!(),
             " FROM sweeps LEFT JOIN expansions ON expansions.sweep_id = id \
-             WHERE id < ? AND (NOT ? OR id IN (SELECT sweep_id FROM studies)) ORDER BY id DESC LIMIT ?",
+             WHERE id < ? AND ending IS NOT 'delete' AND (NOT ? OR id IN (SELECT sweep_id FROM studies)) ORDER BY id DESC LIMIT ?",
         ))
         .bind(before)
         .bind(filter.with_plan)
@@ -140,77 +139,12 @@ impl SqliteStore {
     ) -> Result<bool, StoreError> {
         let found = sqlx::query_scalar(
             "SELECT EXISTS (SELECT 1 FROM sweeps LEFT JOIN studies ON sweep_id = id \
-             WHERE id = ? AND (NOT ? OR plan IS NOT NULL))",
+             WHERE id = ? AND ending IS NOT 'delete' AND (NOT ? OR plan IS NOT NULL))",
         )
         .bind(id.to_string())
         .bind(with_plan)
         .fetch_one(&self.readers);
         Ok(found.await?)
-    }
-
-    pub(in crate::store) async fn cancel_some(&self, batch: Uuid) -> Result<bool, StoreError> {
-        let write = async || {
-            let mut transaction = self.writer.begin_with(BEGIN).await?;
-            let jobs: Vec<Hyphenated> = sqlx::query_scalar(
-                "SELECT id FROM jobs WHERE sweep_id = ? AND status IN ('queued', 'running') \
-                 AND (status = 'queued' OR NOT cancel_requested) LIMIT ?",
-            )
-            .bind(batch.to_string())
-            .bind(JOBS_AT_ONCE)
-            .fetch_all(&mut *transaction)
-            .await?;
-            let now = self.local.clock.now();
-            let mut effects = Vec::with_capacity(jobs.len());
-            for job in jobs.into_iter().map(Uuid::from) {
-                effects.push((job, cancel(&mut transaction, job, now).await?));
-            }
-            transaction.commit().await?;
-            Ok(effects)
-        };
-        let effects = self.local.disk.with_reserve(write).await?;
-        for (job, effect) in &effects {
-            self.local.cancelled(*job, *effect);
-        }
-        Ok(!effects.is_empty())
-    }
-
-    pub(in crate::store) async fn delete_some(
-        &self,
-        batch: Uuid,
-    ) -> Result<Option<Deleted>, StoreError> {
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let is_active: bool = sqlx::query_scalar(
-            "SELECT EXISTS (SELECT 1 FROM jobs WHERE sweep_id = ?1 AND status IN ('queued', 'running')) \
-             OR EXISTS (SELECT 1 FROM expansions WHERE sweep_id = ?1 AND NOT is_over)",
-        )
-        .bind(batch.to_string())
-        .fetch_one(&mut *transaction)
-        .await?;
-        if is_active {
-            return Ok(Some(Deleted::Active));
-        }
-        let jobs: Vec<Hyphenated> = sqlx::query_scalar(
-            "DELETE FROM jobs WHERE id IN (SELECT id FROM jobs WHERE sweep_id = ? LIMIT ?) RETURNING id",
-        )
-        .bind(batch.to_string())
-        .bind(JOBS_AT_ONCE)
-        .fetch_all(&mut *transaction)
-        .await?;
-        let is_last = integer(jobs.len()) < JOBS_AT_ONCE;
-        let deleted = sqlx::query("DELETE FROM sweeps WHERE id = ? AND ?")
-            .bind(batch.to_string())
-            .bind(is_last)
-            .execute(&mut *transaction)
-            .await?;
-        transaction.commit().await?;
-        for job in jobs.into_iter().map(Uuid::from) {
-            self.local.remove_files(job).await;
-            self.local.changed(job);
-        }
-        Ok(is_last.then_some(match deleted.rows_affected() {
-            0 => Deleted::Missing,
-            _ => Deleted::Done,
-        }))
     }
 
     /// Counts the jobs of a batch by status; of a large one, every now and then.

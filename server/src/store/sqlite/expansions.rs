@@ -36,17 +36,6 @@ impl SqliteStore {
         Ok(request.fetch_optional(&self.readers).await?)
     }
 
-    pub(in crate::store) async fn end_expansion(&self, batch: Uuid) -> Result<(), StoreError> {
-        let write = async || {
-            sqlx::query("UPDATE expansions SET is_over = 1 WHERE sweep_id = ? AND NOT is_over")
-                .bind(batch.to_string())
-                .execute(&self.writer)
-                .await?;
-            Ok(())
-        };
-        self.local.disk.with_reserve(write).await
-    }
-
     pub(in crate::store) async fn extend_batch(
         &self,
         portion: &Portion,

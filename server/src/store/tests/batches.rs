@@ -12,6 +12,7 @@ on_both_engines! { Fixture:
     all_refused_combinations_are_counted_and_the_first_are_stored,
     a_batch_with_jobs_to_come_is_not_deleted,
     a_large_batch_is_cancelled_and_deleted_in_several_transactions,
+    a_batch_whose_job_is_queued_again_meanwhile_is_not_deleted,
 }
 
 /// Number of jobs of a batch with an expansion.
@@ -38,6 +39,25 @@ fn changes(position: u64) -> Changes {
 }
 
 impl Fixture {
+    async fn cancelled_batch(&self, batch: Uuid) {
+        let noted = self.store.note_cancellation(batch).await;
+        noted.expect("the store");
+        self.ended_jobs_of_batches().await;
+    }
+
+    async fn deleted_batch(&self, batch: Uuid) -> Deleted {
+        let noted = self.store.note_deletion(batch).await;
+        self.ended_jobs_of_batches().await;
+        noted.expect("the store")
+    }
+
+    /// What the service does until nothing is left.
+    async fn ended_jobs_of_batches(&self) {
+        while self.store.end_jobs_of_batches().await.expect("the store") {}
+        let left = self.store.batch_endings().await;
+        assert_eq!(left.expect("the store"), []);
+    }
+
     /// Queues the first two jobs of a batch.
     async fn first_jobs(&self) -> Uuid {
         let expansion = NewExpansion {
@@ -176,7 +196,7 @@ async fn a_cancelled_batch_queues_no_more(fixture: Fixture) {
     let store = &fixture.store;
     let batch = fixture.first_jobs().await;
     let claim = fixture.claimed(10).await;
-    store.cancel_batch(batch).await.expect("the store");
+    fixture.cancelled_batch(batch).await;
     assert!(!fixture.extended(batch, 2..4).await);
     let overview = fixture.stored(batch, BatchPart::WHOLE).await.overview;
     let counts = (overview.counts["cancelled"], overview.counts["running"]);
@@ -184,14 +204,14 @@ async fn a_cancelled_batch_queues_no_more(fixture: Fixture) {
     assert_eq!(store.demand().await.expect("the store").queued, 0);
     let state = store.lease_state(&claim).await.expect("the store");
     assert_eq!(state, LeaseState::of(Some(true)));
-    let deleted = store.delete_batch(batch).await.expect("the store");
+    let deleted = fixture.deleted_batch(batch).await;
     assert_eq!(deleted, Deleted::Active, "one runs");
     fixture
         .ended(&claim, &JobUpdate::default(), Transition::Cancel, 3)
         .await;
-    let deleted = store.delete_batch(batch).await.expect("the store");
+    let deleted = fixture.deleted_batch(batch).await;
     assert_eq!(deleted, Deleted::Done);
-    let deleted = store.delete_batch(batch).await.expect("the store");
+    let deleted = fixture.deleted_batch(batch).await;
     assert_eq!(deleted, Deleted::Missing);
     assert!(!fixture.extended(batch, 2..4).await);
 }
@@ -203,7 +223,7 @@ async fn a_batch_with_jobs_to_come_is_not_deleted(fixture: Fixture) {
         let claim = fixture.claimed(10).await;
         fixture.ended_with(&claim, &JobUpdate::default()).await;
     }
-    let deleted = store.delete_batch(batch).await.expect("the store");
+    let deleted = fixture.deleted_batch(batch).await;
     assert_eq!(deleted, Deleted::Active);
     store.set_clock(1);
     store.count_time().await.expect("the store");
@@ -211,7 +231,7 @@ async fn a_batch_with_jobs_to_come_is_not_deleted(fixture: Fixture) {
     assert_eq!(old.expect("the store"), 2);
     assert!(store.has_batch(batch, false).await.expect("the store"));
     assert!(fixture.extended(batch, 2..5).await);
-    store.cancel_batch(batch).await.expect("the store");
+    fixture.cancelled_batch(batch).await;
     store.set_clock(2);
     store.count_time().await.expect("the store");
     let old = store.delete_older(Duration::ZERO).await;
@@ -223,11 +243,40 @@ async fn a_large_batch_is_cancelled_and_deleted_in_several_transactions(fixture:
     let store = &fixture.store;
     let jobs = JOBS_AT_ONCE.unsigned_abs() + 1;
     let batch = fixture.batch(new_jobs(0..jobs), None).await;
-    store.cancel_batch(batch).await.expect("the store");
+    fixture.cancelled_batch(batch).await;
     let stored = fixture.stored(batch, BatchPart::WHOLE).await;
     assert_eq!(stored.overview.counts["cancelled"], jobs);
     assert_eq!(stored.overview.asked, None);
-    let deleted = store.delete_batch(batch).await.expect("the store");
-    assert_eq!(deleted, Deleted::Done);
+    let noted = store.note_deletion(batch).await.expect("the store");
+    assert_eq!(noted, Deleted::Done);
+    // It is not shown any more, although its jobs are still there; a second request finds none.
+    assert!(!store.has_batch(batch, false).await.expect("the store"));
+    let filter = BatchFilter {
+        with_plan: false,
+        before: None,
+        limit: 10,
+    };
+    assert_eq!(store.batches(filter).await.expect("the store"), []);
+    let noted = store.note_deletion(batch).await.expect("the store");
+    assert_eq!(noted, Deleted::Missing);
+    assert_eq!(
+        store.count(&Filter::default()).await.expect("the store"),
+        jobs
+    );
+    fixture.ended_jobs_of_batches().await;
     assert_eq!(store.count(&Filter::default()).await.expect("the store"), 0);
+}
+
+async fn a_batch_whose_job_is_queued_again_meanwhile_is_not_deleted(fixture: Fixture) {
+    let store = &fixture.store;
+    let batch = fixture.first_jobs().await;
+    fixture.cancelled_batch(batch).await;
+    let overview = fixture.stored(batch, BatchPart::WHOLE).await.overview;
+    assert_eq!(overview.never_queued, JOBS - 2);
+    let job = fixture.stored(batch, BatchPart::WHOLE).await.jobs[0].id;
+    store.note_deletion(batch).await.expect("the store");
+    store.retry(job).await.expect("the store");
+    fixture.ended_jobs_of_batches().await;
+    assert!(store.has_batch(batch, false).await.expect("the store"));
+    assert_eq!(fixture.stored(batch, BatchPart::WHOLE).await.jobs.len(), 2);
 }

@@ -1,7 +1,5 @@
 //! `POST /v1/sweeps/{id}/cancel` and `POST /v1/studies/{id}/cancel`: cancels all jobs of a batch; always accepted.
 
-use std::sync::Arc;
-
 use api::problem::Problem;
 use api::study::StudyDocument;
 use api::sweep::Sweep;
@@ -14,11 +12,12 @@ use crate::http::app::App;
 use crate::http::extract::BatchId;
 use crate::http::problem::ProblemResponse;
 use crate::http::routes::batches::show::document;
+use crate::store::BatchEnding;
 
 /// The batch in its current state.
 type Cancelled = Result<(StatusCode, Json<Document>), ProblemResponse>;
 
-/// Cancels all jobs of a sweep.
+/// Cancels all jobs of a sweep: those of more than a thousand after the answer.
 #[utoipa::path(
     post,
     path = "/v1/sweeps/{id}/cancel",
@@ -31,7 +30,7 @@ pub(crate) async fn cancel_sweep(app: State<App>, batch: BatchId) -> Cancelled {
     cancel(&app, batch).await
 }
 
-/// Cancels all jobs of a study.
+/// Cancels all jobs of a study: those of more than a thousand after the answer.
 #[utoipa::path(
     post,
     path = "/v1/studies/{id}/cancel",
@@ -47,9 +46,8 @@ pub(crate) async fn cancel_study(app: State<App>, batch: BatchId) -> Cancelled {
 
 async fn cancel(app: &App, batch: BatchId) -> Cancelled {
     app.require_batch(batch).await?;
-    // It goes on if the client does not wait for its end.
-    let store = Arc::clone(&app.store);
-    tokio::spawn(async move { store.cancel_batch(batch.id).await }).await??;
+    app.store.note_cancellation(batch.id).await?;
+    app.end_jobs_of(batch.id, BatchEnding::Cancel).await?;
     Ok((StatusCode::ACCEPTED, document(app, batch).await?))
 }
 

@@ -1,7 +1,5 @@
 //! `DELETE /v1/sweeps/{id}` and `DELETE /v1/studies/{id}`: deletes a batch whose jobs have ended.
 
-use std::sync::Arc;
-
 use api::problem::Problem;
 use axum::extract::State;
 use axum::http::StatusCode;
@@ -10,9 +8,9 @@ use crate::http::app::App;
 use crate::http::extract::BatchId;
 use crate::http::problem::ProblemResponse;
 use crate::http::routes::batches::error::BatchError;
-use crate::store::Deleted;
+use crate::store::{BatchEnding, Deleted};
 
-/// Deletes a sweep whose jobs have all ended, with the jobs, their events and results.
+/// Deletes a sweep whose jobs have all ended, with the jobs, their events and results: those of more than a thousand jobs after the answer.
 #[utoipa::path(
     delete,
     path = "/v1/sweeps/{id}",
@@ -29,7 +27,7 @@ pub(crate) async fn remove_sweep(
     remove(&app, batch).await
 }
 
-/// Deletes a study whose jobs have all ended, with the jobs, their events and results.
+/// Deletes a study whose jobs have all ended, with the jobs, their events and results: those of more than a thousand jobs after the answer.
 #[utoipa::path(
     delete,
     path = "/v1/studies/{id}",
@@ -48,11 +46,11 @@ pub(crate) async fn remove_study(
 
 async fn remove(app: &App, batch: BatchId) -> Result<StatusCode, ProblemResponse> {
     app.require_batch(batch).await?;
-    // It goes on if the client does not wait for its end.
-    let store = Arc::clone(&app.store);
-    let deleting = tokio::spawn(async move { store.delete_batch(batch.id).await });
-    match deleting.await?? {
-        Deleted::Done => Ok(StatusCode::NO_CONTENT),
+    match app.store.note_deletion(batch.id).await? {
+        Deleted::Done => {
+            app.end_jobs_of(batch.id, BatchEnding::Delete).await?;
+            Ok(StatusCode::NO_CONTENT)
+        }
         Deleted::Active => Err(BatchError::Active(batch).into()),
         Deleted::Missing => Err(BatchError::Missing(batch).into()),
     }

@@ -1,10 +1,14 @@
 //! Lookup of a batch, and the errors of its routes.
 
+use std::sync::Arc;
+
+use uuid::Uuid;
+
 use crate::batch::{EvaluateError, ExpandError, Kind};
 use crate::http::app::App;
 use crate::http::extract::BatchId;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
-use crate::store::{BatchDetail, BatchPart, StoredBatch};
+use crate::store::{BatchDetail, BatchEnding, BatchPart, StoredBatch};
 
 /// Jobs that are shown of a batch unless fewer are asked for.
 pub(super) const MOST_JOBS: u32 = 1_000;
@@ -66,6 +70,18 @@ impl App {
             .has_batch(batch.id, batch.kind.has_plan())
             .await?;
         Ok(exists.then_some(()).ok_or(BatchError::Missing(batch))?)
+    }
+
+    /// Cancels or deletes the first jobs of a batch, whether the client waits for it or not. A task of the service goes on with those that are
+    /// left.
+    pub(super) async fn end_jobs_of(
+        &self,
+        batch: Uuid,
+        ending: BatchEnding,
+    ) -> Result<(), ProblemResponse> {
+        let store = Arc::clone(&self.store);
+        tokio::spawn(async move { store.end_jobs_of(batch, ending).await }).await??;
+        Ok(())
     }
 
     /// Reads a batch and evaluates it on a thread of its own: dozens of profiles may be read and compared.
