@@ -142,9 +142,21 @@ impl ColumnMesh {
         nodes
     }
 
+    /// Whether the far face lies above the surface, by the longest spine: the rounded end of one without length may lie on either side.
+    fn is_upward(&self) -> bool {
+        let lengths = self.surface_y.iter().map(|y| self.far_y - y);
+        lengths.fold(0.0, |most: f64, length| {
+            if length.abs() > most.abs() {
+                length
+            } else {
+                most
+            }
+        }) > 0.0
+    }
+
     /// All elements, columns first, layer by layer.
     pub fn cells(&self) -> Vec<Cell> {
-        let up = self.surface_y.iter().all(|&y| y <= self.far_y);
+        let up = self.is_upward();
         let mut cells = Vec::new();
         for i in 0..self.spines() - 1 {
             let (a, b) = (self.first[i], self.first[i + 1]);
@@ -271,6 +283,29 @@ mod tests {
         assert_eq!(mesh.cells().len(), 4);
         assert!((area(&mesh) - 1.0).abs() < 1e-14);
         assert!(mesh.quality().is_ok());
+    }
+
+    #[test]
+    fn the_rounded_end_of_a_spine_without_length_turns_no_element() {
+        for far in [-0.1_f64, 0.1] {
+            for beside in [far.next_down(), far, far.next_up()] {
+                let surface = vec![beside, 0.0, beside];
+                let mesh = ColumnMesh::new(vec![0.0, 0.1, 0.2], surface, far, vec![0.0, 0.5, 1.0]);
+                assert!((area(&mesh) - 0.01).abs() < 1e-15);
+                assert!(mesh.quality().is_ok());
+            }
+        }
+    }
+
+    #[test]
+    fn one_surface_beyond_the_far_face_inverts_the_elements_at_its_spine_alone() {
+        let x = vec![0.0, 1.0, 2.0, 3.0];
+        let mesh = ColumnMesh::new(x, vec![0.0, 0.0, 0.0, 1.5], 1.0, vec![0.0, 1.0]);
+        let inverted = MeshError::Inverted {
+            element: 2,
+            x_mm: 2.0,
+        };
+        assert_eq!(mesh.quality(), Err(inverted));
     }
 
     #[test]

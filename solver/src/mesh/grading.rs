@@ -33,6 +33,10 @@ impl Spacing {
     }
 }
 
+/// Part of the line beyond the core that is no element of its own. Arbitrary: on an arc that ends at its rim an element this long along the
+/// arc is its half square, 5e-13 of the radius, wide, still far above round-off.
+const LEAST_REST: f64 = 1e-6;
+
 /// Symmetric node positions on [-half, half] with one node in the middle and one at each end, ascending.
 ///
 /// The core is divided evenly. Beyond it the spacing grows by a fixed ratio per element, more slowly in the zone that
@@ -45,7 +49,7 @@ pub fn symmetric(half: f64, spacing: &Spacing) -> Vec<f64> {
         .collect();
     let remaining = half - core_half;
     let mut step = core_half / real(n_core);
-    if remaining > 1e-9 * half {
+    if remaining > LEAST_REST * half {
         let mut outer = Vec::new();
         let mut x = 0.0;
         while x < remaining {

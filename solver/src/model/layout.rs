@@ -97,7 +97,7 @@ impl BodyLayout {
             zones: Vec::new(),
             zone_sizes,
         };
-        layout.check_sides()?;
+        layout.check_elements()?;
         layout.with_zones_widened(1.0)
     }
 
@@ -118,13 +118,18 @@ impl BodyLayout {
         })
     }
 
-    /// Checks that the whole surface lies on one side of the far face.
-    fn check_sides(&self) -> Result<(), MeshError> {
+    /// Checks that no element of the unworn mesh is inverted: spines lie beside each other, and the whole surface on one side of the far
+    /// face.
+    fn check_elements(&self) -> Result<(), MeshError> {
         let longest = self.longest();
-        let length = |y: f64| self.far_y.signum() * (self.far_y - y);
+        let crosses = |y: f64| {
+            let length = self.far_y.signum() * (self.far_y - y);
+            length < 0.0 && !is_tip(length, longest)
+        };
         let heights = self.heights();
-        let crossed = |y: &f64| length(*y) < 0.0 && !is_tip(length(*y), longest);
-        match heights.iter().position(crossed) {
+        let is_beside = |spine: usize| spine == 0 || self.x[spine - 1] < self.x[spine];
+        let inverted = |&spine: &usize| crosses(heights[spine]) || !is_beside(spine);
+        match (0..self.x.len()).find(inverted) {
             None => Ok(()),
             Some(spine) => Err(MeshError::Inverted {
                 element: spine.saturating_sub(1) * (self.fractions.len() - 1),
@@ -266,6 +271,29 @@ mod tests {
                 let nodes = model.zones.iter().map(|zone| zone.mesh.nodes());
                 assert!(layout.nodes().eq(nodes));
                 assert_eq!(layout.contact_x(), model.contact_x());
+            }
+        }
+    }
+
+    /// A quarter of a circle to either side: places lie ever closer by their projection.
+    #[test]
+    fn places_up_to_the_rim_of_an_arc_are_apart_wherever_the_core_ends() {
+        for before_the_rim in (1..=16).map(|i| 10.0_f64.powi(-i)) {
+            for radius in [1.0, 0.1, 0.3, 1e-6, 1e4] {
+                let half_arc = radius * std::f64::consts::FRAC_PI_2;
+                let spacing = grading::Spacing {
+                    core: 0.03 * half_arc,
+                    core_half: half_arc * (1.0 - before_the_rim),
+                    zone_growth: 0.1,
+                    zone_half: half_arc,
+                    outer_growth: 0.3,
+                    largest: half_arc,
+                };
+                let x = on_arc(radius, radius, &spacing);
+                assert!(
+                    x.windows(2).all(|pair| pair[0] < pair[1]),
+                    "{before_the_rim}"
+                );
             }
         }
     }

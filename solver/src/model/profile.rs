@@ -41,9 +41,9 @@ impl Profile {
     }
 }
 
-/// R - sqrt(R^2 - x^2), written without cancellation near x = 0.
+/// R - sqrt(R^2 - x^2), written without cancellation near x = 0; R at and beyond the rim, where the quotient may be rounded above it.
 fn sagitta(radius: f64, x: f64) -> f64 {
-    x * x / (radius + (radius * radius - x * x).max(0.0).sqrt())
+    (x * x / (radius + (radius * radius - x * x).max(0.0).sqrt())).min(radius)
 }
 
 #[cfg(test)]
@@ -57,6 +57,18 @@ mod tests {
         let x = 1e-6;
         assert!((arc.height(x) / (x * x / 12.0) - 1.0).abs() < 1e-12);
         assert!((arc.height(6.0) - 6.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_rim_is_no_higher_than_the_centre_whatever_the_radius() {
+        for radius in (1..1_000).map(|i| 1e-3 * f64::from(i)) {
+            for x in [radius, radius.next_up(), 2.0 * radius, -radius] {
+                let height = Profile::Arc { radius }.height(x);
+                assert!(height <= radius && height >= radius.next_down(), "{height}");
+            }
+            let inside = Profile::Arc { radius }.height(radius.next_down());
+            assert!(inside <= radius && inside > radius * (1.0 - 1e-7));
+        }
     }
 
     #[test]
