@@ -23,6 +23,20 @@ pub enum ExtrudedError {
         /// The largest one.
         limit: u32,
     },
+    /// Layers of too unlike lengths.
+    #[error(
+        "{layers} layers that grow by {growth} make the longest {ratio:.1e} times as long as the shortest, at most {limit:e} can be solved"
+    )]
+    UnlikeLayers {
+        /// Their number.
+        layers: usize,
+        /// Length of a layer over that of its neighbour toward the end.
+        growth: f64,
+        /// Length of the longest over that of the shortest.
+        ratio: f64,
+        /// The largest ratio.
+        limit: f64,
+    },
     /// A motion with turning points inside, or without any.
     #[error("extruded bodies slide to and fro between two turning points")]
     Motion,

@@ -51,6 +51,16 @@ pub enum StationError {
         /// Half of the length, mm.
         half_block_mm: f64,
     },
+    /// The receptacle below a ring that bends reaches over the axis of the ring.
+    #[error(
+        "the receptacle reaches {half_block_mm} mm to either side of the wire, over the axis of the ring of a radius of {radius_mm} mm: below a ring whose `top` bends it must end there"
+    )]
+    BeyondAxis {
+        /// Half of the receptacle's length, mm.
+        half_block_mm: f64,
+        /// The radius, mm.
+        radius_mm: f64,
+    },
     /// A motion with turning points inside, or without any.
     #[error("stations slide to and fro between two turning points")]
     Motion,

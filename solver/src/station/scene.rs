@@ -225,6 +225,16 @@ impl StationScene {
                 half_block_mm: half_block,
             });
         }
+        // Waves around a ring belong to one ring of matter: the section below its wire, turned around its axis.
+        if let LineShape::Ring { radius_mm, .. } = self.line
+            && self.is_coupled()
+            && half_block > radius_mm
+        {
+            return Err(StationError::BeyondAxis {
+                half_block_mm: half_block,
+                radius_mm,
+            });
+        }
         if self.stations < 2 {
             return Err(StationError::Stations {
                 stations: self.stations,

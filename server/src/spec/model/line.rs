@@ -259,6 +259,7 @@ impl Line {
             StationError::Value { name, .. } if name.contains("amplitude") => {
                 "/motion/amplitude_mm"
             }
+            StationError::BeyondAxis { .. } => "/model/outer_diameter_mm",
             StationError::Spacing { .. } => "/accuracy/overrides/stations",
             StationError::Drive => "/motion/drive",
             StationError::FrictionLaw => "/interface/friction",
