@@ -8,8 +8,12 @@
 //! sum of its constrictions and films. The way through the bodies is in series (`condensation::Spreading`), by the resistivity of the
 //! bases. A single spot spreads the current along the depth of the section, too, which the bodies' part, even along it, counts again: by a
 //! few per cent of it.
+//!
+//! A computed cycle stands for many, within which a metal comes to light and the resistance jumps. Both are located there: in the first of its
+//! contacts (`Touching`, by the part of the cycles) that shows the metal, or has the resistance.
 
 mod constriction;
+mod located;
 mod patches;
 mod unworn;
 
@@ -18,7 +22,7 @@ use std::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 
 use crate::law::resistance::Film;
-use crate::scene::{Electrical, Metal};
+use crate::scene::Electrical;
 use crate::sides::{Side, Sides};
 use constriction::{Constriction, Spreading};
 pub(crate) use patches::Surface;
@@ -71,8 +75,23 @@ pub(crate) struct AreaContact {
     pub(crate) force_n: f64,
     /// Worn depths of both sides at each cell in contact, mm.
     pub(crate) depths_mm: Vec<Sides<f64>>,
-    /// Time since the run began, s.
-    pub(crate) time_s: f64,
+}
+
+/// What the resistance of a contact is computed from.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Touching {
+    force_n: f64,
+    patches: Vec<Patch>,
+    time_s: f64,
+    spreading: Sides<f64>,
+}
+
+impl Touching {
+    /// Whether a side shows a metal.
+    fn shows(&self, side: Side, metal: usize) -> bool {
+        let mut patches = self.patches.iter();
+        patches.any(|patch| *patch.metal.of(side) == metal)
+    }
 }
 
 /// What the next resistance depends on.
@@ -84,7 +103,7 @@ pub struct ElectricalState {
     force_n: f64,
     /// Patches of its contact, and what is computed for them.
     patches: Vec<(Patch, Constriction)>,
-    /// Time of the last contact in which a metal of a side was not exposed yet, s; `None` until it is.
+    /// Time at which a metal of a side was exposed, s; `None` until it is.
     exposed_since_s: Sides<Vec<Option<f64>>>,
     time_s: f64,
 }
@@ -118,30 +137,45 @@ impl<'a> Evaluation<'a> {
         }
     }
 
-    /// Takes the next contact into the state. Constrictions are computed where load or layers have changed.
-    pub(crate) fn update(&self, state: &mut ElectricalState, contact: &Contact<'_>) {
+    /// A contact of a section.
+    pub(crate) fn section(&self, contact: &Contact<'_>) -> Touching {
         let Electrical {
             width_mm, metals, ..
         } = self.electrical;
-        let force_n = width_mm * contact.load_n_per_mm;
-        let found = patches(contact.span, contact.surfaces, metals);
-        self.update_patches(state, (force_n, found), (contact.time_s, contact.spreading));
+        Touching {
+            force_n: width_mm * contact.load_n_per_mm,
+            patches: patches(contact.span, contact.surfaces, metals),
+            time_s: contact.time_s,
+            spreading: contact.spreading,
+        }
     }
 
-    /// Takes the next contact of half-spaces into the state: the current spreads in them from the spots on.
-    pub(crate) fn update_area(&self, state: &mut ElectricalState, contact: &AreaContact) {
-        let found = patches_of_cells(&contact.depths_mm, &self.electrical.metals);
-        let spreading = Sides::default();
-        self.update_patches(state, (contact.force_n, found), (contact.time_s, spreading));
+    /// A contact of half-spaces after a time since the run began, s: the current spreads in them from the spots on.
+    pub(crate) fn area(&self, contact: &AreaContact, time_s: f64) -> Touching {
+        Touching {
+            force_n: contact.force_n,
+            patches: patches_of_cells(&contact.depths_mm, &self.electrical.metals),
+            time_s,
+            spreading: Sides::default(),
+        }
     }
 
-    fn update_patches(
-        &self,
-        state: &mut ElectricalState,
-        (force_n, found): (f64, Vec<Patch>),
-        (time_s, spreading): (f64, Sides<f64>),
-    ) {
-        note_exposure(state, &found, &self.electrical.metals, time_s);
+    /// Takes the contact after the next computed cycle into the state; `during` has those after a part of it.
+    pub(crate) fn update(&self, state: &mut ElectricalState, during: impl Fn(f64) -> Touching) {
+        let now = during(1.0);
+        self.note_exposure(state, &now, during);
+        self.take(state, now);
+    }
+
+    /// Takes a contact whose metals have been noted into the state. Constrictions are computed where load or layers have changed.
+    fn take(&self, state: &mut ElectricalState, contact: Touching) {
+        let Touching {
+            force_n,
+            patches: found,
+            time_s,
+            spreading,
+        } = contact;
+        state.time_s = time_s;
         if force_n <= 0.0 {
             *state = ElectricalState {
                 resistance: Some(open()),
@@ -236,23 +270,6 @@ fn open() -> ContactResistance {
         film_mohm: OPEN_MOHM,
         ..ContactResistance::default()
     }
-}
-
-/// Notes since when metals are exposed: at the latest since the contact before the first one that shows them.
-fn note_exposure(
-    state: &mut ElectricalState,
-    patches: &[Patch],
-    metals: &Sides<Vec<Metal>>,
-    time_s: f64,
-) {
-    for side in Side::BOTH {
-        let since = state.exposed_since_s.of_mut(side);
-        since.resize(metals.of(side).len(), None);
-        for patch in patches {
-            since[*patch.metal.of(side)].get_or_insert(state.time_s);
-        }
-    }
-    state.time_s = time_s;
 }
 
 #[cfg(test)]

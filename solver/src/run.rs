@@ -1,5 +1,6 @@
 //! The run: integrate until the geometry has drifted or the contact has outgrown its mesh, relocate, condense again.
 
+mod computed;
 mod finite;
 mod load;
 mod progress;
@@ -21,7 +22,7 @@ use crate::observer::{Event, Observer, Phase};
 use crate::record::{self, Exposed, Outcome, Summary};
 use crate::scene::{Dimension, Scene};
 use load::{Loaded, load_unworn};
-use progress::{end, progress, push_life};
+use progress::{end, progress};
 use resistance::Consequence;
 use snapshot::snapshot;
 use step::{Renewal, Step, step};
@@ -197,7 +198,12 @@ fn integrate(
             }
         }
         until_limit = u64::MAX;
-        push_life(scene, model, run, &electrical);
+        let surface = |side| record::worn_surface(model, &run.state, side);
+        run.life.push(scene, run.state.cycle, surface);
+        if let Some(evaluation) = &evaluation {
+            let (tools, bodies) = ((evaluation, scene), (model, condensed));
+            resistance::push_life_of_section(tools, bodies, (run, &before, &electrical));
+        }
         let end = end(scene, (model, &spines), run);
         let delivered = deliver(scene, (model, condensed), run, (record, end), observer)?;
         if let ControlFlow::Break(outcome) = delivered {

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::law::resistance::{Deformation, Growth};
-use crate::scene::Spots;
+use crate::scene::{Metal, Spots};
 
 const GOLD: f64 = 2.21e-8;
 
@@ -59,9 +59,15 @@ fn contact(depth: &[f64; 5], time_s: f64) -> Contact<'_> {
     }
 }
 
+/// Takes a contact that has been the same since the last one into a state.
+fn update(electrical: &Electrical, state: &mut ElectricalState, contact: &Contact<'_>) {
+    let evaluation = Evaluation::new(electrical);
+    evaluation.update(state, |_| evaluation.section(contact));
+}
+
 fn resistance(electrical: &Electrical, depth: &[f64; 5]) -> ContactResistance {
     let mut state = ElectricalState::default();
-    Evaluation::new(electrical).update(&mut state, &contact(depth, 0.0));
+    update(electrical, &mut state, &contact(depth, 0.0));
     state.resistance.expect("it is computed")
 }
 
@@ -160,7 +166,7 @@ fn swapped_sides_have_the_same_resistance() {
         },
         ..straight
     };
-    Evaluation::new(&other).update(&mut state, &swapped);
+    update(&other, &mut state, &swapped);
     let swapped = state.resistance.expect("it is computed");
     assert!((swapped.total_mohm / found.total_mohm - 1.0).abs() < 1e-14);
     let [a, b] = [found, swapped].map(|found| found.constriction_mohm);
@@ -186,44 +192,83 @@ fn a_film_grows_from_the_exposure_of_its_metal_on() {
     });
     let evaluation = Evaluation::new(&plated);
     let mut state = ElectricalState::default();
-    let mut film_at = |depth: &[f64; 5], time_s| {
-        evaluation.update(&mut state, &contact(depth, time_s));
+    let mut film_at = |depth: [f64; 2], time_s: [f64; 2]| {
+        evaluation.update(&mut state, |part| {
+            let at = |[from, to]: [f64; 2]| from + part * (to - from);
+            evaluation.section(&contact(&[at(depth); 5], at(time_s)))
+        });
         state
             .resistance
             .map(|found| found.film_mohm)
             .expect("it is computed")
     };
-    assert!(film_at(&[0.0; 5], 50.0) <= 0.0);
-    // Exposed between 50 and 60 s.
-    film_at(&[2e-3; 5], 60.0);
-    let grown = film_at(&[2e-3; 5], 450.0);
+    assert!(film_at([0.0; 2], [0.0, 50.0]) <= 0.0);
+    // Exposed after half of the time from 40 to 60 s.
+    film_at([0.0, 2e-3], [40.0, 60.0]);
+    let grown = film_at([2e-3; 2], [60.0, 450.0]);
     let expected = 2.0 * 1e3 * 1e-6 / (0.5 / 1_700.0);
-    assert!((grown / expected - 1.0).abs() < 1e-12, "{grown} {expected}");
+    // Located to 1e-9 of the 20 s, of which a film of 400 s has half of the part.
+    assert!((grown / expected - 1.0).abs() < 1e-10, "{grown} {expected}");
     // The metal at the surface is exposed from the start.
     let mut state = ElectricalState::default();
     let bare = electrical(Sides {
         slider: vec![base(GOLD)],
         receptacle: vec![below],
     });
-    let evaluation = Evaluation::new(&bare);
     for time_s in [0.0, 400.0] {
-        evaluation.update(&mut state, &contact(&[0.0; 5], time_s));
+        update(&bare, &mut state, &contact(&[0.0; 5], time_s));
     }
     let found = state.resistance.expect("it is computed").film_mohm;
     assert!((found / expected - 1.0).abs() < 1e-12, "{found}");
+}
+
+/// A depth that grows evenly through a layer of gold over a base with a film, which shows all of the base at once.
+#[test]
+fn a_limit_of_a_jump_is_reached_where_the_metal_is_exposed() {
+    let film = Film {
+        specific_resistance_ohm_mm2: 1.0,
+        growth: None,
+    };
+    let below = Metal {
+        film: Some(film),
+        ..base(GOLD)
+    };
+    let plated = electrical(Sides {
+        slider: vec![base(GOLD)],
+        receptacle: vec![metal(1e-3, GOLD, 1_700.0), below],
+    });
+    let evaluation = Evaluation::new(&plated);
+    let during = |part: f64| evaluation.section(&contact(&[0.5e-3 + 2e-3 * part; 5], part));
+    let mut before = ElectricalState::default();
+    evaluation.update(&mut before, |_| during(0.0));
+    let mut after = before.clone();
+    evaluation.update(&mut after, during);
+    let (clean, covered) = (before.total_mohm(), after.total_mohm());
+    let (clean, covered) = (clean.expect("computed"), covered.expect("computed"));
+    assert!(covered > 1e3 * clean, "{clean} {covered}");
+    for limit in [1.01 * clean, 10.0 * clean, 0.999 * covered] {
+        let part = evaluation.part_at(limit, (&before, &after), during);
+        assert!(
+            (part - 0.25).abs() < 1e-9 && part >= 0.25,
+            "{limit}: {part}"
+        );
+    }
+    // What is there from the beginning is reached at once.
+    let part = evaluation.part_at(0.9 * clean, (&before, &after), during);
+    assert!(part <= 0.0, "{part}");
 }
 
 #[test]
 fn what_has_not_changed_is_not_computed_again() {
     let mut broken = of_gold();
     let mut state = ElectricalState::default();
-    Evaluation::new(&of_gold()).update(&mut state, &contact(&[0.0; 5], 0.0));
+    update(&of_gold(), &mut state, &contact(&[0.0; 5], 0.0));
     let known = state.clone();
     // A resistivity that a new evaluation would take.
     broken.metals.slider[0].resistivity_ohm_m = 1.0;
-    Evaluation::new(&broken).update(&mut state, &contact(&[0.0; 5], 1.0));
+    update(&broken, &mut state, &contact(&[0.0; 5], 1.0));
     assert_eq!(state.resistance, known.resistance);
-    Evaluation::new(&broken).update(&mut state, &contact(&[1e-6; 5], 1.0));
+    update(&broken, &mut state, &contact(&[1e-6; 5], 1.0));
     assert!(state.resistance != known.resistance);
 }
 
@@ -233,20 +278,19 @@ fn a_contact_without_load_is_open() {
     let mut unloaded = contact(&[0.0; 5], 0.0);
     unloaded.load_n_per_mm = 0.0;
     let gold = of_gold();
-    let evaluation = Evaluation::new(&gold);
-    evaluation.update(&mut state, &unloaded);
+    update(&gold, &mut state, &unloaded);
     let total = |state: &ElectricalState| state.resistance.map(|found| found.total_mohm);
     assert_eq!(total(&state), Some(OPEN_MOHM));
     // Loaded again, it conducts.
-    evaluation.update(&mut state, &contact(&[0.0; 5], 1.0));
+    update(&gold, &mut state, &contact(&[0.0; 5], 1.0));
     assert!(total(&state).is_some_and(|total| total < 2.0));
     // A hardly loaded one is no worse than open, a contact without length has the metals of its middle.
     unloaded.load_n_per_mm = 1e-300;
-    evaluation.update(&mut state, &unloaded);
+    update(&gold, &mut state, &unloaded);
     assert!(total(&state).is_some_and(|total| total <= OPEN_MOHM));
     let mut point = contact(&HALF, 2.0);
     point.span = (0.5e-3, 0.5e-3);
-    evaluation.update(&mut state, &point);
+    update(&gold, &mut state, &point);
     assert!(total(&state).is_some_and(|total| total < 2.0));
 }
 
@@ -258,7 +302,7 @@ fn the_bodies_are_in_series_by_the_resistivity_of_their_bases() {
         receptacle: 0.5,
     };
     let mut state = ElectricalState::default();
-    Evaluation::new(&of_gold()).update(&mut state, &bodies);
+    update(&of_gold(), &mut state, &bodies);
     let found = state.resistance.expect("it is computed");
     // 2.21e-8 ohm m over 0.5 mm: 0.0442 mOhm a square.
     assert!(

@@ -270,6 +270,39 @@ pub fn depths(wear: Option<SurfaceWear>, equivalent: Vec<f64>) -> Vec<f64> {
     }
 }
 
+/// Depths of a surface a part of the way from one state to a later one, mm, its doses growing evenly. Where wear has ended at the later
+/// depth, the dose that reached it is not known: it grew at least by the `pace`, what the equivalents would grow by on the whole way as
+/// before; none is known of nodes beyond its end.
+pub(crate) fn between(
+    wear: Option<SurfaceWear>,
+    (before, after): (&[f64], &[f64]),
+    pace: impl Iterator<Item = f64>,
+    part: f64,
+) -> Vec<f64> {
+    let ways = before.iter().zip(after);
+    let Some(wear) = wear else {
+        let even = |(before, after): (&f64, &f64)| before + part * (after - before);
+        return ways.map(even).collect();
+    };
+    let node = |((before, after), pace): ((&f64, &f64), f64)| {
+        let (from, to) = (wear.equivalent(*before), wear.equivalent(*after));
+        let grown = if *after >= wear.deepest() {
+            pace.max(to - from)
+        } else {
+            to - from
+        };
+        let equivalent = from + part * grown;
+        if equivalent >= to {
+            *after
+        } else {
+            wear.depth(equivalent)
+        }
+    };
+    ways.zip(pace.chain(std::iter::repeat(0.0)))
+        .map(node)
+        .collect()
+}
+
 /// Values at the nodes of a surface times the rates at their depths in mm over that of the unworn surface.
 pub fn at_relative_rates<'a>(
     wear: Option<SurfaceWear>,
@@ -301,6 +334,36 @@ mod tests {
         assert!(matches!(equivalents(bare, &depth), Cow::Borrowed(_)));
         assert_eq!(SurfaceWear::new(&[], None), None);
         assert_eq!(bare.and_then(SurfaceWear::uniform), Some(2e-8));
+    }
+
+    #[test]
+    fn between_two_states_the_dose_grows_evenly_and_ends_with_the_wear() {
+        let layer = Layer {
+            thickness_mm: 1e-3,
+            rate_per_mpa: 1e-8,
+        };
+        let base = WearLaw::Archard {
+            k_over_h_per_mpa: 4e-8,
+        };
+        let at = |base, (before, after): (f64, f64), pace: f64, part| {
+            let wear = SurfaceWear::new(&[layer], base);
+            between(wear, (&[before], &[after]), std::iter::once(pace), part)[0]
+        };
+        let is = |found: f64, expected: f64| (found - expected).abs() < 1e-17;
+        // 0.5 um of the layer take as long as 2 um of the base.
+        let way = (0.5e-3, 3e-3);
+        assert!(is(at(Some(base), way, 0.0, 0.0), 0.5e-3));
+        assert!(is(at(Some(base), way, 9.0, 0.5), 1e-3));
+        assert!(is(at(Some(base), way, 9.0, 0.75), 2e-3));
+        assert_eq!(at(Some(base), way, 0.0, 1.0).to_bits(), 3e-3_f64.to_bits());
+        // Wear that ends at the layer's bottom: at the pace of 2 um half of the way is there after an eighth.
+        let way = (0.75e-3, 1e-3);
+        assert!(is(at(None, way, 2e-3, 0.0625), 0.875e-3));
+        assert_eq!(at(None, way, 2e-3, 0.126).to_bits(), 1e-3_f64.to_bits());
+        assert!(is(at(None, way, 0.0, 0.5), 0.875e-3));
+        // An unworn surface without a law.
+        let bare = between(None, (&[0.0; 2], &[0.0; 2]), std::iter::empty(), 0.5);
+        assert_eq!(bare, [0.0, 0.0]);
     }
 
     #[test]

@@ -67,8 +67,9 @@ impl PointState {
         Sides::from_fn(|side| self.sliding.surfaces.of(side).fastest_rate())
     }
 
-    /// Worn depths of both sides at each cell of the contact at the neutral position, mm.
-    pub(crate) fn depths_in_contact(&self) -> Vec<Sides<f64>> {
+    /// Worn depths of both sides at each cell of the contact at the neutral position after a part of the last computed cycle, whose doses grow
+    /// evenly, and at most these, mm.
+    pub(crate) fn depths_in_contact(&self, part: f64, limits: Sides<f64>) -> Vec<Sides<f64>> {
         let (cells, lattice) = (self.neutral.cells, &self.sliding.lattice);
         // The window may have been widened since.
         let widened = lattice.window().0 - cells.along_x / 2;
@@ -83,8 +84,9 @@ impl PointState {
             Sides::from_fn(|side| {
                 let surface = self.sliding.surfaces.of(side);
                 let (first_row, first_column) = *first.of(side);
-                let dose = surface.dose.rows(first_row + row, 1)[first_column + column];
-                surface.depth_mm(dose)
+                let cell = (first_row + row, first_column + column);
+                let depth = surface.depth_mm(surface.dose_within(part, cell));
+                depth.min(*limits.of(side))
             })
         });
         depths.collect()

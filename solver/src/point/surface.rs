@@ -56,6 +56,18 @@ impl Surface {
         self.wear.map_or(0.0, |wear| wear.depth(equivalent))
     }
 
+    /// Dose of a cell in a row and a column after a part of the present computed cycle that is done, MPa mm: it grows evenly.
+    pub(super) fn dose_within(&self, part: f64, (row, column): (usize, usize)) -> f64 {
+        let at = |field: &Field| field.rows(row, 1)[column];
+        let after = at(&self.dose);
+        if part < 1.0 {
+            let before = at(&self.before);
+            before + part * (after - before)
+        } else {
+            after
+        }
+    }
+
     /// Growth of the depth of a place of a dose by another one that is added, mm, and the specific wear rate then, 1/MPa.
     pub(super) fn growth(&self, dose: f64, added: f64) -> (f64, f64) {
         let Some(wear) = self.wear else {

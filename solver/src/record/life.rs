@@ -2,14 +2,15 @@
 //!
 //! The cycles that a computed one represents do not pass a criterion by far (`schedule::stops`). Between two computed cycles the
 //! dose at the depth of the criterion is taken as linear in the cycles, which is exact for a pressure that does not change; where
-//! the wear ends at that depth, as linear with the rate before. A contact resistance is taken as linear in the cycles.
+//! the wear ends at that depth, as linear with the rate before. A contact resistance, which jumps where a metal is exposed, is located in the
+//! same way: among contacts whose doses are linear in the cycles (`electrical::located`), and so not before a criterion that causes it.
 
 use serde::{Deserialize, Serialize};
 
 use super::Exposed;
 use crate::number::real_cycles;
 use crate::scene::{Criterion, Scene};
-use crate::sides::Side;
+use crate::sides::{Side, Sides};
 
 /// Life by the criteria of a scene, in their order.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -60,25 +61,27 @@ impl Life {
         }
     }
 
-    /// Takes the resistances before and after the next computed cycle, mOhm; before the states of its wear.
+    /// Takes the resistances before and after a computed cycle, mOhm, which the criteria have taken; `part_at` is the part of its cycles after
+    /// which a limit between them is reached, by the state of the criteria.
     pub(crate) fn push_resistance(
         &mut self,
         limits: &[f64],
-        cycle: u64,
+        (last, cycle): (u64, u64),
         (before, after): (f64, f64),
+        part_at: impl Fn(f64, &[CriterionState]) -> f64,
     ) {
         self.resistance
             .resize(limits.len(), CriterionState::default());
-        let cycles = real_cycles(cycle - self.cycle);
         for (state, limit) in self.resistance.iter_mut().zip(limits) {
             (state.value, state.limit) = (after, *limit);
             if state.cycles.is_none() && before.max(after) >= *limit {
                 let part = if before >= *limit {
                     0.0
                 } else {
-                    (limit - before) / (after - before)
+                    part_at(*limit, &self.criteria)
                 };
-                state.cycles = Some(real_cycles(self.cycle) + part * cycles);
+                let cycles = real_cycles(cycle - last);
+                state.cycles = Some(real_cycles(last) + part * cycles);
             }
         }
     }
@@ -98,6 +101,19 @@ impl Life {
         }
         self.cycle = cycle;
     }
+}
+
+/// Depths of both sides that are below every criterion of their deepest point that is not reached after so many cycles, mm.
+pub(crate) fn unreached(scene: &Scene, criteria: &[CriterionState], cycles: f64) -> Sides<f64> {
+    let known = criteria.iter().zip(&scene.life);
+    Sides::from_fn(|side| {
+        let later = known.clone().filter(|(state, criterion)| {
+            let of_deepest = criterion.side == side && criterion.part <= 0.0;
+            of_deepest && state.cycles.is_none_or(|at| cycles < at)
+        });
+        let depths = later.map(|(_, criterion)| criterion.depth_mm.next_down());
+        depths.fold(f64::INFINITY, f64::min)
+    })
 }
 
 impl CriterionState {
@@ -159,11 +175,11 @@ mod tests {
     #[test]
     fn a_resistance_is_reached_between_computed_cycles() {
         let mut life = Life::default();
-        let scene = fuzz_button();
         let limits = [1.0, 3.0, 10.0];
         let mut next = |cycle, resistances| {
-            life.push_resistance(&limits, cycle, resistances);
-            push(&mut life, &scene, cycle, 0.0);
+            life.push_resistance(&limits, (cycle - 100, cycle), resistances, |limit, _| {
+                limit / 12.0
+            });
             life.resistance
                 .iter()
                 .map(|state| state.cycles)
@@ -176,6 +192,25 @@ mod tests {
         assert_eq!(next(300, (6.0, 1.0)), [Some(0.0), Some(125.0), None]);
         let open = life.resistance[2];
         assert!((open.value - 1.0).abs() < 1e-15 && (open.limit - 10.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn depths_are_below_a_criterion_until_it_is_reached() {
+        let mut scene = fuzz_button();
+        let deepest = |depth_mm| Criterion::deepest(Side::Receptacle, depth_mm);
+        let part = Criterion {
+            part: 0.5,
+            ..deepest(0.5e-3)
+        };
+        scene.life = vec![deepest(2e-3), deepest(1e-3), part];
+        let mut life = Life::default();
+        push(&mut life, &scene, 100, 1.6e-3);
+        let reached = life.criteria[1].cycles.expect("it is reached");
+        assert!((reached - 62.5).abs() < 1e-9);
+        let before = unreached(&scene, &life.criteria, reached.next_down());
+        assert!(before.receptacle < 1e-3 && before.slider.is_infinite());
+        let after = unreached(&scene, &life.criteria, reached);
+        assert!(after.receptacle > 1e-3 && after.receptacle < 2e-3);
     }
 
     #[test]

@@ -8,11 +8,12 @@ mod sections;
 
 use std::ops::ControlFlow;
 
+use super::computed::{UNLIMITED, cycle_after, elapsed_s};
 use super::resistance::{self, Consequence};
 use crate::SolveError;
 use crate::checkpoint::{Earlier, ExtrudedRun, FiniteRun, LineRun, Misfit, PointRun, Resumable};
 use crate::effects::EffectsPlan;
-use crate::electrical::{AreaContact, ContactResistance, ElectricalState};
+use crate::electrical::{AreaContact, ContactResistance, ElectricalState, Evaluation};
 use crate::extruded::ExtrudedIntegrator;
 use crate::observer::{Event, Observer, Phase};
 use crate::point::PointIntegrator;
@@ -53,8 +54,12 @@ trait Contact: Sized {
     fn cycles_left(&self) -> (f64, bool);
     /// Why it cannot be worn on besides.
     fn ending(&self) -> Option<Outcome>;
-    /// What its resistance depends on after a time, s.
-    fn area(state: &Self::State, time_s: f64) -> Option<AreaContact>;
+    /// What its resistance depends on after a part of the cycles between two states, with no place deeper than limits, mm; none of a contact
+    /// whose resistance is not computed.
+    fn areas<'a>(
+        before: &'a Self::State,
+        after: &'a Self::State,
+    ) -> Option<impl Fn(f64, Sides<f64>) -> AreaContact + 'a>;
 
     fn worn(&self, state: &Self::State) -> Self::Worn;
     fn scars(worn: &Self::Worn) -> Sides<Self::Scar>;
@@ -135,7 +140,9 @@ fn begin_contact<C: Contact>(
     observer.on_phase(Phase::Cycles);
     let (contact, state) = C::start(scene, plan)?;
     let mut electrical = ElectricalState::default();
-    update_resistance::<C>((scene, plan), &mut electrical, &state);
+    let evaluation = resistance::evaluation(scene, plan);
+    let tools = (scene, evaluation.as_ref());
+    update_resistance::<C>(tools, &mut electrical, (&state, &state));
     let worn = contact.worn(&state);
     let report = contact.report(scene, &state, &worn, electrical.resistance.as_ref());
     let initial = Initial {
@@ -206,6 +213,8 @@ fn integrate<C: Contact>(
     observer: &mut dyn Observer,
 ) -> Result<ControlFlow<Outcome>, SolveError> {
     const STOPPED: ControlFlow<Outcome> = ControlFlow::Break(Outcome::Stopped);
+    let evaluation = resistance::evaluation(scene, plan);
+    let tools = (scene, evaluation.as_ref());
     // Where a limit of the resistance was passed by too much.
     let mut until_limit = u64::MAX;
     let mut scars = C::scars(&contact.worn(&run.state));
@@ -222,7 +231,7 @@ fn integrate<C: Contact>(
             return Ok(ControlFlow::Continue(()));
         }
         let electrical_before = run.electrical.clone();
-        update_resistance::<C>((scene, plan), &mut run.electrical, &run.state);
+        update_resistance::<C>(tools, &mut run.electrical, (&before, &run.state));
         let resistances = (&electrical_before, &run.electrical);
         if let Some(Consequence::GoTo(sooner)) =
             resistance::consequence(scene, plan, cycles, resistances)
@@ -237,7 +246,9 @@ fn integrate<C: Contact>(
         let resistance = run.electrical.resistance.as_ref();
         let report = contact.report(scene, &run.state, &worn, resistance);
         run.compared.push(&report);
-        push_life::<C>(scene, run, (&electrical_before, &scars));
+        run.life
+            .push(scene, C::cycle(&run.state), |side| scars.of(side));
+        push_life_by_resistance::<C>(tools, run, (&before, &electrical_before));
         if observer.on(Event::Cycle(&report)).is_break() {
             return Ok(STOPPED);
         }
@@ -261,31 +272,37 @@ fn integrate<C: Contact>(
     Ok(ControlFlow::Break(Outcome::Completed))
 }
 
-/// Takes the contact after a computed cycle into the resistance, if the plan has it.
+/// Takes the contact after a computed cycle into the resistance, if it is evaluated; from the states before and after the cycle.
 fn update_resistance<C: Contact>(
-    (scene, plan): (&Scene, &EffectsPlan),
+    (scene, evaluation): (&Scene, Option<&Evaluation<'_>>),
     electrical: &mut ElectricalState,
-    state: &C::State,
+    (before, after): (&C::State, &C::State),
 ) {
-    let Some(evaluation) = resistance::evaluation(scene, plan) else {
+    let (Some(evaluation), Some(areas)) = (evaluation, C::areas(before, after)) else {
         return;
     };
-    if let Some(contact) = C::area(state, resistance::elapsed_s(scene, C::cycle(state))) {
-        evaluation.update_area(electrical, &contact);
-    }
+    let cycles = (C::cycle(before), C::cycle(after));
+    evaluation.update(electrical, |part| {
+        let time_s = elapsed_s(scene, cycle_after(cycles, part));
+        evaluation.area(&areas(part, UNLIMITED), time_s)
+    });
 }
 
-/// Takes a computed cycle into the life by the criteria of the scene.
-fn push_life<C: Contact>(
-    scene: &Scene,
+/// Takes a computed cycle into the lives by the resistance, if it is evaluated; from the states before the cycle.
+fn push_life_by_resistance<C: Contact>(
+    (scene, evaluation): (&Scene, Option<&Evaluation<'_>>),
     run: &mut FiniteRun<C::State>,
-    (before, scars): (&ElectricalState, &Sides<C::Scar>),
+    (before, electrical): (&C::State, &ElectricalState),
 ) {
-    let cycle = C::cycle(&run.state);
-    if let Some((limits, resistances)) = resistance::of_life(scene, (before, &run.electrical)) {
-        run.life.push_resistance(limits, cycle, resistances);
-    }
-    run.life.push(scene, cycle, |side| scars.of(side));
+    let (Some(evaluation), Some(areas)) = (evaluation, C::areas(before, &run.state)) else {
+        return;
+    };
+    let cycles = (C::cycle(before), C::cycle(&run.state));
+    let (tools, states) = ((scene, evaluation), (electrical, &run.electrical));
+    resistance::push_life(tools, cycles, states, &mut run.life, |part, limits| {
+        let time_s = elapsed_s(scene, cycle_after(cycles, part));
+        evaluation.area(&areas(part, limits), time_s)
+    });
 }
 
 /// Its progress for its stops.

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::computed::{Computed, UNLIMITED};
 use super::resistance;
 use super::snapshot::snapshot;
 use crate::SolveError;
@@ -85,10 +86,13 @@ fn load(
     let record = integrator.apply_load(&mut state)?;
     let mut electrical = ElectricalState::default();
     if let Some(evaluation) = resistance::evaluation(scene, plan) {
-        evaluation.update(
-            &mut electrical,
-            &resistance::contact(scene, (model, condensed), &state),
-        );
+        let unworn = Computed {
+            before: &state,
+            after: &state,
+        };
+        evaluation.update(&mut electrical, |part| {
+            unworn.contact((&evaluation, scene), (model, condensed), (part, UNLIMITED))
+        });
         state.constriction_mohm = electrical.constriction_mohm();
     }
     let report = record::report(scene, model, &state, electrical.resistance);

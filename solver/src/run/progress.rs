@@ -4,28 +4,12 @@ use super::resistance;
 use crate::ale::Spines;
 use crate::checkpoint::SectionRun;
 use crate::cycle::CycleState;
-use crate::electrical::ElectricalState;
 use crate::law::surface;
 use crate::model::Model;
 use crate::record::{self, Exposed, Outcome};
 use crate::scene::Scene;
 use crate::schedule::stops::{self, Progress};
 use crate::sides::Sides;
-
-/// Takes a computed cycle into the life by the criteria of the scene.
-pub(super) fn push_life(
-    scene: &Scene,
-    model: &Model,
-    run: &mut SectionRun,
-    before: &ElectricalState,
-) {
-    let cycle = run.state.cycle;
-    if let Some((limits, resistances)) = resistance::of_life(scene, (before, &run.electrical)) {
-        run.life.push_resistance(limits, cycle, resistances);
-    }
-    let surface = |side| record::worn_surface(model, &run.state, side);
-    run.life.push(scene, cycle, surface);
-}
 
 /// The outcome of a run that ends here.
 pub(super) fn end(

@@ -4,9 +4,10 @@ use crate::checkpoint::SectionRun;
 use crate::condensation::Condensed;
 use crate::cycle::CycleState;
 use crate::effects::{Crossing, Effect, EffectsPlan};
-use crate::electrical::{Contact, ElectricalState, Evaluation, Surface};
+use crate::electrical::{ElectricalState, Evaluation, Touching};
 use crate::model::Model;
-use crate::number::real_cycles;
+use crate::record::{Life, unreached};
+use crate::run::computed::{Computed, UNLIMITED, cycle_after};
 use crate::scene::Scene;
 use crate::schedule::stops;
 use crate::sides::Sides;
@@ -16,34 +17,6 @@ pub(super) fn evaluation<'a>(scene: &'a Scene, plan: &EffectsPlan) -> Option<Eva
     let electrical = scene.conduction.known()?;
     plan.simulates(Effect::Resistance)
         .then(|| Evaluation::new(electrical))
-}
-
-/// The contact at the last passage of the neutral position.
-pub(super) fn contact<'a>(
-    scene: &Scene,
-    (model, condensed): (&'a Model, &Condensed),
-    state: &'a CycleState,
-) -> Contact<'a> {
-    let neutral = state.neutral;
-    let span = (
-        neutral.middle - neutral.half_width,
-        neutral.middle + neutral.half_width,
-    );
-    Contact {
-        load_n_per_mm: neutral.load,
-        span,
-        surfaces: Sides::from_fn(|side| Surface {
-            x: model.bodies.of(side).contact_x(),
-            depth: state.depth.of(side),
-        }),
-        time_s: elapsed_s(scene, state.cycle),
-        spreading: condensed.spreading_ratios(span),
-    }
-}
-
-/// Time after a number of cycles, s; 0 of a continuous motion.
-pub(super) fn elapsed_s(scene: &Scene, cycles: u64) -> f64 {
-    scene.elapsed(real_cycles(cycles)).1.unwrap_or_default()
 }
 
 /// What the resistance after a computed cycle has the run do.
@@ -63,8 +36,13 @@ pub(super) fn update(
     (run, before): (&mut SectionRun, &CycleState),
 ) -> Option<Consequence> {
     let electrical = run.electrical.clone();
-    let contact = contact(scene, (model, condensed), &run.state);
-    evaluation.update(&mut run.electrical, &contact);
+    let computed = Computed {
+        before,
+        after: &run.state,
+    };
+    evaluation.update(&mut run.electrical, |part| {
+        computed.contact((evaluation, scene), (model, condensed), (part, UNLIMITED))
+    });
     let cycles = (before.cycle, run.state.cycle);
     let found = consequence(scene, plan, cycles, (&electrical, &run.electrical));
     match &found {
@@ -97,14 +75,47 @@ pub(super) fn consequence(
     (!called_for.is_empty()).then_some(Consequence::Effects(called_for))
 }
 
-/// Limits of the resistance whose life is recorded, mOhm, with the resistances before and after a computed cycle.
-pub(super) fn of_life<'a>(
-    scene: &'a Scene,
+/// Takes a computed cycle into the lives by the resistance, after those by the depth: a limit that is passed in it is located among its
+/// contacts, in none of which a place is deeper than a criterion that is reached later. `contact` is the one after a part of the cycle.
+pub(super) fn push_life(
+    (scene, evaluation): (&Scene, &Evaluation<'_>),
+    cycles: (u64, u64),
     (before, after): (&ElectricalState, &ElectricalState),
-) -> Option<(&'a [f64], (f64, f64))> {
-    let electrical = scene.conduction.known()?;
-    let resistances = (before.total_mohm()?, after.total_mohm()?);
-    Some((&electrical.life_mohm, resistances))
+    life: &mut Life,
+    contact: impl Fn(f64, Sides<f64>) -> Touching,
+) {
+    let limits = scene.conduction.known().map(|known| &known.life_mohm[..]);
+    let resistances = before.total_mohm().zip(after.total_mohm());
+    let (Some(limits), Some(resistances)) = (limits, resistances) else {
+        return;
+    };
+    life.push_resistance(limits, cycles, resistances, |limit, criteria| {
+        evaluation.part_at(limit, (before, after), |part| {
+            let at = cycle_after(cycles, part);
+            contact(part, unreached(scene, criteria, at))
+        })
+    });
+}
+
+/// The same of a section, from the states before the computed cycle.
+pub(super) fn push_life_of_section(
+    (evaluation, scene): (&Evaluation<'_>, &Scene),
+    bodies: (&Model, &Condensed),
+    (run, before, electrical): (&mut SectionRun, &CycleState, &ElectricalState),
+) {
+    let computed = Computed {
+        before,
+        after: &run.state,
+    };
+    let cycles = (before.cycle, run.state.cycle);
+    let states = (electrical, &run.electrical);
+    push_life(
+        (scene, evaluation),
+        cycles,
+        states,
+        &mut run.life,
+        |part, limits| computed.contact((evaluation, scene), bodies, (part, limits)),
+    );
 }
 
 /// Whether the resistance has reached a limit that ends the run.

@@ -63,11 +63,19 @@ impl Contact for PointIntegrator {
         None
     }
 
-    fn area(state: &PointState, time_s: f64) -> Option<AreaContact> {
-        Some(AreaContact {
-            force_n: state.last().force_n,
-            depths_mm: state.depths_in_contact(),
-            time_s,
+    /// At the cells of the contact after the cycles.
+    fn areas<'a>(
+        before: &'a PointState,
+        after: &'a PointState,
+    ) -> Option<impl Fn(f64, Sides<f64>) -> AreaContact + 'a> {
+        let (from, to) = (before.last().force_n, after.last().force_n);
+        Some(move |part: f64, limits: Sides<f64>| AreaContact {
+            force_n: if part < 1.0 {
+                from + part * (to - from)
+            } else {
+                to
+            },
+            depths_mm: after.depths_in_contact(part, limits),
         })
     }
 

@@ -117,8 +117,11 @@ impl<S: Sections> Contact for S {
         })
     }
 
-    fn area(_: &S::State, _: f64) -> Option<AreaContact> {
-        None
+    fn areas<'a>(
+        _: &'a S::State,
+        _: &'a S::State,
+    ) -> Option<impl Fn(f64, Sides<f64>) -> AreaContact + 'a> {
+        None::<fn(f64, Sides<f64>) -> AreaContact>
     }
 
     fn worn(&self, state: &S::State) -> Vec<StationProfile> {
