@@ -27,6 +27,7 @@ mod verify_heating;
 mod verify_hertz_line_contact;
 mod verify_invariance;
 mod verify_jumps_in_a_deep_groove;
+mod verify_life_by_resistance;
 mod verify_line_fields;
 mod verify_line_runs;
 mod verify_long_wipe;

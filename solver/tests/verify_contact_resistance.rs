@@ -15,12 +15,12 @@ use solver::sides::{Side, Sides};
 const GOLD: f64 = 2.21e-8;
 const HARDNESS: f64 = 1_700.0;
 /// N; the width follows from the load per depth.
-const FORCE: f64 = 0.5;
+pub(crate) const FORCE: f64 = 0.5;
 /// ohm mm^2: 17 mOhm on a spot of gold under this force.
-const FILM: f64 = 5e-6;
+pub(crate) const FILM: f64 = 5e-6;
 
 /// A plated receptacle whose layers and base are gold, with a film on the base, under an unplated slider of gold.
-fn filmed(amplitude: f64, growth: Option<Growth>) -> Scene {
+pub(crate) fn filmed(amplitude: f64, growth: Option<Growth>) -> Scene {
     let mut scene = plated(amplitude, &Side::BOTH[1..], 200_000, 0.02);
     scene.spring_n_per_mm2 = 0.0;
     let metal = |bottom_mm| Metal {
@@ -60,7 +60,7 @@ fn filmed(amplitude: f64, growth: Option<Growth>) -> Scene {
     scene
 }
 
-fn limited(mut scene: Scene, stop: &[f64], life: &[f64]) -> Scene {
+pub(crate) fn limited(mut scene: Scene, stop: &[f64], life: &[f64]) -> Scene {
     if let Conduction::Known(electrical) = &mut scene.conduction {
         electrical.stop_mohm = stop.to_vec();
         electrical.life_mohm = life.to_vec();
@@ -76,7 +76,7 @@ fn resistance(report: &CycleReport) -> ResistanceReport {
 const AMPLITUDES: [f64; 2] = [0.004, 0.1];
 
 /// Resistances of a clean and of a covered spot, mOhm.
-fn clean_and_covered() -> (f64, f64) {
+pub(crate) fn clean_and_covered() -> (f64, f64) {
     let area = FORCE / HARDNESS;
     let clean = 1e6 * GOLD / (2.0 * (area / std::f64::consts::PI).sqrt());
     (clean, clean + 1e3 * FILM / area)
