@@ -208,3 +208,36 @@ fn a_contact_that_its_window_does_not_hold_is_refused() {
         })
     );
 }
+
+/// A stick zone that does not wear in an annulus that does.
+#[test]
+fn an_annulus_that_wears_alone_converges_however_much_it_wears() {
+    let cells = square(32, 2.8 * HERTZ.0);
+    let gap = sphere(&cells);
+    let approach_per_pressure = HERTZ.2 / HERTZ.1;
+    for factor in [1e-2, 1.0, 1e2, 1e4, 1e6] {
+        let worn = factor * approach_per_pressure;
+        let wear = cells.map(|x, z| {
+            if x.hypot(z) < 0.7 * HERTZ.0 {
+                0.0
+            } else {
+                worn
+            }
+        });
+        let mut pressure = vec![0.0; cells.count()];
+        let problem = NormalProblem {
+            gap_mm: &gap,
+            wear_mm_per_mpa: &wear,
+            force_n: FORCE_N,
+        };
+        let mut contact = NormalContact::new(cells, STEEL);
+        let found = contact.solve(&problem, &mut pressure);
+        let found = found.expect("the contact has a solution");
+        assert!(found.iterations < 40, "{factor}: {found:?}");
+        assert!((cells.integral(&pressure) / FORCE_N - 1.0).abs() < 1e-12);
+        // What wears that much carries nothing.
+        let carried = pressure.iter().zip(&wear).filter(|(_, wear)| **wear > 0.0);
+        let share = carried.map(|(p, _)| p * cells.area_mm2()).sum::<f64>() / FORCE_N;
+        assert!(factor < 1e4 || share < 1e-2, "{factor}: {share}");
+    }
+}
