@@ -1,14 +1,14 @@
 //! Computed cycles of a point contact: each stands for a jump, whose wear both of its passes do at once.
 
 use super::error::PointError;
-use super::jump::{JumpControl, rejected};
+use super::jump::{JumpControl, jump_error, rejected, share_in_wear};
 use super::placed::Placed;
 use super::point_state::PointState;
 use super::record::PointCycle;
 use super::scene::{PointScene, SlipRegime};
 use super::sliding::Sliding;
 use super::state::State;
-use super::surface::Surface;
+use super::surface::{Surface, WearSums};
 use super::window;
 use crate::law::surface::SurfaceWear;
 use crate::number::real_cycles;
@@ -159,16 +159,16 @@ impl PointIntegrator {
                 state.neutral = Placed::of(&self.scene, &unskewed, last);
             }
         }
-        let (mut change, mut total) = (0.0, 0.0);
+        let mut sums = WearSums::default();
         for side in Side::BOTH {
-            let sums = state.sliding.surfaces.of_mut(side).end_cycle(jump);
-            change += sums.0;
-            total += sums.1;
+            let of_side = state.sliding.surfaces.of_mut(side).end_cycle(jump);
+            sums.change += of_side.change;
+            sums.total += of_side.total;
+            sums.earlier += of_side.earlier;
         }
-        Ok(if total > 0.0 {
-            0.5 * change / total
-        } else {
-            0.0
+        Ok(match self.scene.slip {
+            SlipRegime::Gross => jump_error(sums),
+            SlipRegime::Partial => jump_error(sums) * share_in_wear(sums, state.done),
         })
     }
 

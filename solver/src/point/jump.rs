@@ -5,6 +5,10 @@
 //! and the next jump is the last one times the tolerance over e, at most twice and at least half of it, and no longer than the cycles
 //! done.
 //!
+//! Where a part sticks, the wear per cycle ends: what slips is worn until it carries nothing. The change of a wear that adds little counts by
+//! the share min(1, r N/h) of the wear per cycle in its mean over the N cycles that have worn h, so that the errors of all jumps
+//! add up to the tolerance of the depth and not to that of a rate that vanishes.
+//!
 //! Each pass wears the whole jump, so that the contact rests on the leading-edge step that the pass leaves: over a body of the specific
 //! wear rate k on which the contact travels by the length s, at most its own one 2 b, k jump s E*/b is the step over the
 //! indentation. It skews the pressure by about a third of itself, and bounds the jump.
@@ -12,6 +16,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::scene::PointAccuracy;
+use super::surface::WearSums;
 use crate::number::{cycles_at_least, real_cycles};
 
 /// Largest step over indentation of a jump from a tolerance of 2 % on; below, it falls with the root of the tolerance. A sphere on a flat
@@ -88,6 +93,24 @@ impl JumpControl {
     }
 }
 
+/// Half the change of the wear per cycle over that wear.
+pub(super) fn jump_error(sums: WearSums) -> f64 {
+    if sums.total > 0.0 {
+        0.5 * sums.change / sums.total
+    } else {
+        0.0
+    }
+}
+
+/// Wear per cycle over its mean in the cycles before, at most 1.
+pub(super) fn share_in_wear(sums: WearSums, done: u64) -> f64 {
+    if sums.earlier > 0.0 {
+        (sums.total * real_cycles(done) / sums.earlier).min(1.0)
+    } else {
+        1.0
+    }
+}
+
 /// The jump to repeat a computed cycle with, if its error is too large and its jump not given.
 pub(super) fn rejected(
     accuracy: &PointAccuracy,
@@ -119,6 +142,25 @@ mod tests {
         assert_eq!(control.next(&accuracy, (500, 1_000), 1e-9), 20);
         control.update(20, 0.03);
         assert_eq!(control.next(&accuracy, (520, 980), 1e-9), 27);
+    }
+
+    #[test]
+    fn the_change_of_a_wear_that_ends_counts_by_what_it_adds() {
+        let sums = WearSums {
+            change: 1e-6,
+            total: 1e-5,
+            earlier: 0.1,
+        };
+        assert!((jump_error(sums) - 0.05).abs() < 1e-15);
+        assert!((share_in_wear(sums, 1_000) - 0.1).abs() < 1e-15);
+        assert!((share_in_wear(sums, 20_000) - 1.0).abs() < 1e-15);
+        assert_eq!(
+            (
+                jump_error(WearSums::default()),
+                share_in_wear(WearSums::default(), 0)
+            ),
+            (0.0, 1.0)
+        );
     }
 
     #[test]

@@ -4,7 +4,11 @@
 use super::error::PointError;
 use super::scene::PointScene;
 use super::state::State;
-use crate::contact::area::{Shear, ShearCompliance, TangentialContact};
+use crate::contact::area::{SHEAR_TOLERANCE, Shear, ShearCompliance, TangentialContact};
+
+/// Shear below its bound, over the largest bound, from which on a place sticks: what the iteration leaves of its slip would wear it in the
+/// many cycles of a jump. A few times the tolerance of the iteration.
+const WITHIN: f64 = 10.0 * SHEAR_TOLERANCE;
 
 /// The contact in shear; built for a lattice when it is first needed.
 #[derive(Default)]
@@ -37,9 +41,13 @@ impl StickSlip {
         let slip = found
             .map_err(|error| PointError::Friction { cycle: 0, error })?
             .slip_mm;
+        let within = WITHIN * bounds.iter().fold(0.0, |most: f64, bound| most.max(*bound));
+        let shears = state.shear.0.values.iter().zip(&state.shear.1.values);
         let slips = slip.along.iter().zip(&slip.across);
-        for (path, (along, across)) in state.slip.values.iter_mut().zip(slips) {
-            *path = along.hypot(*across);
+        let places = slips.zip(shears).zip(&bounds);
+        for (path, (((along, across), (x, z)), bound)) in state.slip.values.iter_mut().zip(places) {
+            let sticks = x.hypot(*z) < bound - within;
+            *path = if sticks { 0.0 } else { along.hypot(*across) };
         }
         Ok(())
     }

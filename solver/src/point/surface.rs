@@ -27,6 +27,17 @@ pub(super) struct Surface {
     pace: Field,
 }
 
+/// Sums over all cells of the equivalent depth of wear, mm.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct WearSums {
+    /// Change of the wear per cycle from the last computed cycle to this one, without its sign.
+    pub(super) change: f64,
+    /// Wear per cycle in this one.
+    pub(super) total: f64,
+    /// Wear before it.
+    pub(super) earlier: f64,
+}
+
 impl Surface {
     /// An unworn one.
     pub(super) fn new(wear: Option<SurfaceWear>, half: (usize, usize)) -> Self {
@@ -145,18 +156,22 @@ impl Surface {
         }
     }
 
-    /// Ends a computed cycle of a jump: the sums over all cells of the change of the wear per cycle from the last one, and of that wear, as
-    /// equivalent depth.
-    pub(super) fn end_cycle(&mut self, jump: f64) -> (f64, f64) {
-        let (mut change, mut total) = (0.0, 0.0);
+    /// Ends a computed cycle of a jump.
+    pub(super) fn end_cycle(&mut self, jump: f64) -> WearSums {
+        let (mut change, mut total, mut earlier) = (0.0, 0.0, 0.0);
         let doses = self.dose.values.iter().zip(&self.before.values);
         for (pace, (after, before)) in self.pace.values.iter_mut().zip(doses) {
             let new = (after - before) / jump;
             change += self.rate * (new - *pace).abs();
             total += self.rate * new;
+            earlier += self.rate * before;
             *pace = new;
         }
-        (change, total)
+        WearSums {
+            change,
+            total,
+            earlier,
+        }
     }
 
     /// The surface on a grid of another size.

@@ -348,3 +348,27 @@ fn a_long_amplitude_in_partial_slip_is_refused() {
         "{found:?}"
     );
 }
+
+/// What slips is worn until it carries nothing; then nothing wears, however many cycles follow. A spring that holds the ball, and wear in a
+/// jump of up to thousands of times the elastic compliance beside a stick zone without any.
+#[test]
+fn a_ball_in_partial_slip_wears_to_its_limiting_shape() {
+    let after = |cycles| {
+        let mut scene = sphere_on_flat(sides(0.0, 1e-5), 0.7e-3, cycles);
+        scene.friction = 0.6;
+        scene.slip = SlipRegime::Partial;
+        scene.spring_n_per_mm = 1e5;
+        // A coarse grid.
+        scene.accuracy.cells_per_half_length = 6.0;
+        solved(&scene)
+    };
+    let (early, late) = (after(20_000), after(3_000_000));
+    let volume = |summary: &PointSummary| summary.last.worn_volume_mm3.receptacle;
+    let grown = volume(&late) / volume(&early) - 1.0;
+    // The tolerance of the contact pressure.
+    assert!(grown.abs() < 1e-6, "{grown}");
+    assert!(late.last.peak_pressure_mpa > HERTZ.1, "{:?}", late.last);
+    // A hundredth of the cycles are followed by few: jumps grow with the cycles done.
+    assert!(late.computed_cycles < early.computed_cycles + 12);
+    assert!(late.computed_cycles < 80, "{}", late.computed_cycles);
+}
