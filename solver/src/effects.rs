@@ -121,6 +121,14 @@ impl EffectsPlan {
     }
 
     /// Relative change of the outputs by all skipped effects.
+    /// What a result misses by effects that are beyond their limits and not simulated, in words.
+    pub fn missed(&self) -> impl Iterator<Item = String> {
+        self.decisions.iter().filter_map(|decision| {
+            let missed = decision.missed()?;
+            Some(format!("{}: {missed}", decision.effect.name()))
+        })
+    }
+
     pub fn skipped_change(&self) -> f64 {
         counted(self.decisions.iter()).fold(0.0, |sum, (_, value)| sum + value)
     }

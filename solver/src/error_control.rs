@@ -59,11 +59,21 @@ fn control(
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     let plan = effects::plan(scene);
+    let mut done = with_companions((scene, &plan), from, observer)?;
+    done.warnings.extend(plan.missed());
+    Ok(done)
+}
+
+fn with_companions(
+    (scene, plan): (&Scene, &EffectsPlan),
+    from: Option<Checkpoint>,
+    observer: &mut dyn Observer,
+) -> Result<Summary, SolveError> {
     std::thread::scope(|scope| {
         let earlier = from.as_ref().map(Checkpoint::earlier);
         let mut runs = Runs {
             scene,
-            plan: &plan,
+            plan,
             earlier: earlier.cloned().unwrap_or_default(),
             from,
             observer,

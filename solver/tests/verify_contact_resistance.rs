@@ -276,3 +276,18 @@ fn the_scatter_of_a_life_is_that_of_runs_where_films_grow() {
         "{found} {exact}"
     );
 }
+
+#[test]
+fn a_result_names_what_it_misses() {
+    let mut scene = limited(filmed(AMPLITUDES[0], None), &[], &[]);
+    scene.cycles = 1;
+    let (summary, _) = solve(&scene).expect("the scene can be solved");
+    let missed =
+        |text: &&String| text.starts_with("across_width: ") && text.contains("times sooner");
+    assert_eq!(
+        summary.warnings.iter().filter(missed).count(),
+        1,
+        "{:?}",
+        summary.warnings
+    );
+}

@@ -124,7 +124,7 @@ fn check_forced(given: &Given, plan: EffectsPlan, diagnostics: &mut Diagnostics)
     }
 }
 
-/// Warnings of effects that are switched off, or lack an input, although the scene calls for them.
+/// Warnings of effects beyond their limits that are not simulated, and of those that lack an input.
 pub(crate) fn warnings(scene: &Scene) -> Vec<Fault> {
     let decisions = solver::effects::plan(scene).decisions.into_iter();
     let off = decisions.filter_map(|decision| {
@@ -134,24 +134,22 @@ pub(crate) fn warnings(scene: &Scene) -> Vec<Fault> {
                 detail: decision.reason,
             });
         }
-        let indicator = decision.indicator?;
-        let matters = indicator.value() > indicator.threshold;
         let heats = matches!(
             decision.effect,
             Effect::FrictionalHeating | Effect::JouleHeating
         );
-        if heats && decision.verdict.is_on() && indicator.value() >= MOLTEN {
+        let heat = decision
+            .indicator
+            .filter(|_| heats && decision.verdict.is_on());
+        if heat.is_some_and(|indicator| indicator.value() >= MOLTEN) {
             return Some(Fault {
                 pointer: "/environment".to_owned(),
                 detail: format!("the contact melts: {}", decision.reason),
             });
         }
-        let is_missed = decision.effect == Effect::SkinEffect;
-        let is_out = decision.verdict == Verdict::ForcedOff && !is_missed
-            || decision.verdict == Verdict::Skipped && is_missed;
-        (is_out && matters).then(|| Fault {
+        decision.missed().map(|detail| Fault {
             pointer: format!("/effects/{}", decision.effect.name()),
-            detail: format!("the scene calls for it: {}", decision.reason),
+            detail,
         })
     });
     off.collect()

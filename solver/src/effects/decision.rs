@@ -19,6 +19,18 @@ pub struct Decision {
 }
 
 impl Decision {
+    /// What the result misses, in words, where the effect is beyond its limit and not simulated.
+    pub fn missed(&self) -> Option<String> {
+        let indicator = self.indicator?;
+        let is_missed = !self.verdict.is_on() && indicator.value() > indicator.threshold;
+        let calls = if self.effect.is_available() && self.is_available {
+            "the scene calls for it"
+        } else {
+            "it is beyond its limit and not simulated"
+        };
+        is_missed.then(|| format!("{calls}: {}", self.reason))
+    }
+
     /// Whether a run may still call for the effect: it is skipped, not switched off, and can be simulated in the scene.
     pub(super) fn can_be_called_for(&self) -> bool {
         self.verdict == Verdict::Skipped && self.is_available

@@ -217,8 +217,10 @@ fn consequence(effect: Effect, is_on: bool) -> &'static str {
         (Effect::Resistance, true) => "the resistance of the worn contact is computed",
         (Effect::Resistance, false) => "the resistance of the contact is not computed",
         (Effect::GeometricNonlinearity, _) => "strains and rotations are taken as small",
-        (Effect::Plasticity, _) => "the bodies are elastic at any pressure",
-        (Effect::AcrossWidth, _) => "the load is even across the width",
+        (Effect::Plasticity, _) => "it is simulated as elastic",
+        (Effect::AcrossWidth, _) => {
+            "the load is even across the width; `model.dimension` of `point` or `line` simulates it"
+        }
         (
             Effect::Oxidation
             | Effect::Relaxation
