@@ -13,6 +13,7 @@ mod effect;
 pub mod extent;
 mod indicators;
 mod line;
+mod plasticity;
 mod point;
 mod reason;
 pub mod small_strain;
@@ -120,7 +121,6 @@ impl EffectsPlan {
             .collect()
     }
 
-    /// Relative change of the outputs by all skipped effects.
     /// What a result misses by effects that are beyond their limits and not simulated, in words.
     pub fn missed(&self) -> impl Iterator<Item = String> {
         self.decisions.iter().filter_map(|decision| {
@@ -129,6 +129,7 @@ impl EffectsPlan {
         })
     }
 
+    /// Relative change of the outputs by all skipped effects.
     pub fn skipped_change(&self) -> f64 {
         counted(self.decisions.iter()).fold(0.0, |sum, (_, value)| sum + value)
     }

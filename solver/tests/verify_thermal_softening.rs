@@ -11,6 +11,7 @@ const RATIOS: [f64; 3] = [0.5, 0.25, 2.0];
 fn heated(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     let softening = Softening {
+        hardness_mpa: Vec::new(),
         ratios: RATIOS.map(Some).to_vec(),
         margins_k: Vec::new(),
         lacks_melting: false,

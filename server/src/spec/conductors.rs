@@ -1,8 +1,6 @@
 //! The contact as an electrical conductor: force, resistivities, hardnesses, spots and films.
 
-use api::spec::{
-    CriterionKind, EnumValue, Material, MaterialProperties, Model, Spec, Switch, WearLaw,
-};
+use api::spec::{CriterionKind, EnumValue, Material, Model, Spec, Switch};
 use solver::law::elastic::contact_modulus;
 use solver::law::plating::bottoms;
 use solver::law::softening::REFERENCE_C;
@@ -74,8 +72,8 @@ pub(super) fn resolve(
         let metals = pointers.chain([base]).zip(bottoms).enumerate();
         let metals = metals.map(|(number, ((name, material, law), bottom_mm))| {
             // Whether it wears or not.
-            let softening = environment::ratio(temperature, material).unwrap_or(1.0);
-            let (resistivity, hardness) = properties(material, law);
+            let hardness = environment::hardness_mpa(temperature, material, law);
+            let resistivity = resistivity(material);
             if resistivity.is_none() {
                 lacks.push(format!("`{name}.resistivity_ohm_m`"));
                 unknown.get_or_insert(NO_RESISTIVITY);
@@ -87,7 +85,7 @@ pub(super) fn resolve(
             Metal {
                 bottom_mm,
                 resistivity_ohm_m: resistivity.unwrap_or_default(),
-                hardness_mpa: softening * hardness.unwrap_or_default(),
+                hardness_mpa: hardness.unwrap_or_default(),
                 film: films.of(side).get(number).copied().flatten(),
             }
         });
@@ -142,15 +140,11 @@ fn is_asked_for(filled: &Spec) -> bool {
         || stops.any(is_resistance)
 }
 
-/// Resistivity of a metal, and its hardness: that which its wear law states, or its own.
-fn properties(material: Option<&Material>, law: Option<&WearLaw>) -> (Option<f64>, Option<f64>) {
-    let properties: Option<&MaterialProperties> = match material {
-        Some(Material::Given(properties)) => Some(properties),
+fn resistivity(material: Option<&Material>) -> Option<f64> {
+    match material {
+        Some(Material::Given(properties)) => properties.resistivity_ohm_m,
         _ => None,
-    };
-    let of_law = law.and_then(|law| law.hardness_mpa);
-    let hardness = of_law.or(properties.and_then(|own| own.hardness_mpa));
-    (properties.and_then(|own| own.resistivity_ohm_m), hardness)
+    }
 }
 
 #[cfg(test)]

@@ -58,6 +58,10 @@ pub(super) fn softening(resolved: &Spec, diagnostics: &mut Diagnostics) -> Sides
         for (material, _) in &surfaces {
             check_melting(temperature, *material, diagnostics);
         }
+        let hardness_mpa = surfaces
+            .iter()
+            .map(|(material, law)| hardness_mpa(temperature, *material, *law))
+            .collect();
         let by_hardness: Vec<_> = surfaces
             .into_iter()
             .map(|(material, law)| law.filter(|law| wears_by_hardness(law)).map(|_| material))
@@ -75,6 +79,7 @@ pub(super) fn softening(resolved: &Spec, diagnostics: &mut Diagnostics) -> Sides
             Some(material) => ratio(temperature, *material),
         });
         Softening {
+            hardness_mpa,
             ratios: if is_reference {
                 Vec::new()
             } else {
@@ -133,6 +138,18 @@ pub(super) fn laws(resolved: &Spec) -> Sides<Option<&WearLaw>> {
         slider: wear.slider.as_ref().and_then(Option::as_ref),
         receptacle: wear.receptacle.as_ref().and_then(Option::as_ref),
     }
+}
+
+/// Hardness of a metal at a temperature, MPa: that which its wear law states, or its own; at 20 °C where its melting temperature is not
+/// known.
+pub(super) fn hardness_mpa(
+    temperature: f64,
+    material: Option<&Material>,
+    law: Option<&WearLaw>,
+) -> Option<f64> {
+    let of_law = law.and_then(|law| law.hardness_mpa);
+    let hardness = of_law.or(properties(material).and_then(|own| own.hardness_mpa))?;
+    Some(ratio(temperature, material).unwrap_or(1.0) * hardness)
 }
 
 /// Hardness of a material at a temperature over that at 20 °C; `None` where its melting temperature is not known or passed.

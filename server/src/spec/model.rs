@@ -7,7 +7,6 @@ mod line;
 mod point;
 mod preset;
 mod section_only;
-mod yielding;
 
 use api::problem::Fault;
 use api::spec::{Dimension, LoadKind, Model, Spec, SystemKind};
@@ -173,10 +172,9 @@ pub(super) fn with_dimension(
 /// Warnings of a contact that is none of its dimension.
 pub(super) fn warnings(scene: &Scene) -> Vec<Fault> {
     match scene.dimension {
-        solver::scene::Dimension::PlaneStrain => Vec::new(),
+        solver::scene::Dimension::PlaneStrain | solver::scene::Dimension::Extruded(_) => Vec::new(),
         solver::scene::Dimension::Point(_) => point::warnings(scene),
         solver::scene::Dimension::Line(_) => line::warnings(scene),
-        solver::scene::Dimension::Extruded(_) => extruded::warnings(scene),
     }
 }
 

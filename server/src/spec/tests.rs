@@ -1,5 +1,6 @@
 //! Resolution of whole specifications.
 
+mod beyond_limits;
 mod round_dimensions;
 mod wrong_types;
 

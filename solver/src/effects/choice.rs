@@ -3,7 +3,8 @@
 use super::decision::{Decision, Indicator, Verdict};
 use super::dimension::can_simulate;
 use super::effect::Effect;
-use super::indicators::{self, Indicators};
+use super::indicators::Indicators;
+use super::plasticity::Yield;
 use super::reason::{Grounds, reason};
 use super::small_strain;
 
@@ -86,7 +87,7 @@ fn indicator(scene: &Scene, indicators: &Indicators<'_>, effect: Effect) -> Indi
             Effect::Elasticity | Effect::Resistance => 0.0,
             Effect::AcrossWidth if scene.dimension.is_finite() => 0.0,
             Effect::GeometricNonlinearity => small_strain::limit(scene),
-            Effect::Plasticity => 1.0,
+            Effect::Plasticity => indicators.onset_of_yield(),
             Effect::Plating => LAYER_SHARE,
             _ => SHARE * accuracy.tolerance,
         },
@@ -242,8 +243,8 @@ fn nothing_to_simulate(
             Conduction::Known(_) => None,
         },
         Effect::SpringFading if !wears() => Some("nothing wears, so the spring keeps its load"),
-        Effect::Plasticity if indicators::peak_over_hardness(scene).is_none() => Some(
-            "never simulated, and not estimated: the hardness of a surface or the force is not known",
+        Effect::Plasticity if Yield::of(scene).is_none() => Some(
+            "never simulated, and not estimated: give `hardness_mpa` of each material, of layers and bases",
         ),
         Effect::AcrossWidth if scene.dimension.is_finite() => None,
         Effect::AcrossWidth if !wears() => {

@@ -9,6 +9,7 @@ use super::across_width;
 use super::bending;
 use super::dimension;
 use super::effect::Effect;
+use super::plasticity::{self, Yield};
 use super::small_strain;
 use crate::electrical;
 use crate::law::elastic::dundurs_beta;
@@ -150,7 +151,7 @@ impl<'a> Indicators<'a> {
                 ratios.slider.max(ratios.receptacle) - 1.0
             }
             Effect::GeometricNonlinearity => small_strain::cost(&self.scene),
-            Effect::Plasticity => peak_over_hardness(&self.scene).unwrap_or_default(),
+            Effect::Plasticity => Yield::of(&self.scene).map_or(0.0, |unworn| unworn.ratio()),
             Effect::AcrossWidth => 1.0 - self.life_of_ball(depth),
             Effect::Oxidation
             | Effect::Relaxation
@@ -159,6 +160,11 @@ impl<'a> Indicators<'a> {
             | Effect::MetalTransfer
             | Effect::Fatigue => 0.0,
         }
+    }
+
+    /// Peak pressure over hardness at which the contact begins to yield, -.
+    pub(super) fn onset_of_yield(&self) -> f64 {
+        plasticity::onset(&self.scene, self.friction)
     }
 
     /// Life of a ball over that of the section, at these depths if the tip is not plated; 1 where the width is not known.
@@ -374,12 +380,4 @@ fn lost_slip(scene: &Scene, half_width: f64) -> f64 {
     };
     let lost = unworn_contact::gross_slip(scene, half_width);
     if lost > 0.0 { lost / displacement } else { 0.0 }
-}
-
-/// Hertz' peak pressure of the unworn contact over the hardness of the softer surface, -, where both are known.
-pub(super) fn peak_over_hardness(scene: &Scene) -> Option<f64> {
-    let electrical = scene.conduction.known()?;
-    let peak = unworn_contact::hertz_peak_pressure(scene);
-    let hardness = Side::BOTH.map(|side| electrical.metals.of(side)[0].hardness_mpa);
-    Some(peak / hardness[0].min(hardness[1]))
 }

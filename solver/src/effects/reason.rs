@@ -4,6 +4,7 @@ use super::decision::{Indicator, Verdict};
 use super::dimension::can_simulate;
 use super::effect::Effect;
 use super::indicators::Indicators;
+use super::plasticity::Yield;
 
 use crate::law::elastic::contact_modulus;
 use crate::scene::{Dimension, Scene};
@@ -100,6 +101,9 @@ pub(super) fn reason(
     if effect == Effect::AcrossWidth {
         return format!("{switch}{}", across_width(scene, indicators));
     }
+    if effect == Effect::Plasticity {
+        return format!("{switch}{}", plasticity(scene, indicators, threshold));
+    }
     let result = consequence(effect, verdict.is_on());
     if follows_friction(scene, effect) {
         return format!(
@@ -149,6 +153,66 @@ fn across_width(scene: &Scene, indicators: &Indicators<'_>) -> String {
                 consequence(Effect::AcrossWidth, false)
             )
         }
+    }
+}
+
+/// The peak pressure beside hardnesses and the onset of yield, and what the permanent depth that is left out means.
+fn plasticity(scene: &Scene, indicators: &Indicators<'_>, onset: f64) -> String {
+    let Some(unworn) = Yield::of(scene) else {
+        return consequence(Effect::Plasticity, false).to_owned();
+    };
+    let (peak, ratio, name) = (unworn.peak_mpa, unworn.ratio(), unworn.side.name());
+    let hardness = unworn.hardness;
+    let layers = scene.plating(unworn.side);
+    let of = if layers.is_empty() {
+        format!("the hardness of the {name}, {:.0} MPa", hardness.carrying)
+    } else {
+        format!(
+            "the hardness that carries the contact on the {name}, {:.0} MPa ({:.2} times that of its outermost layer, {:.2} times that of its \
+             base)",
+            hardness.carrying,
+            peak / hardness.outermost,
+            peak / hardness.base
+        )
+    };
+    let follows = if ratio <= onset {
+        "it is elastic".to_owned()
+    } else if ratio <= 1.0 {
+        format!(
+            "what yields is enclosed by elastic matter; {}",
+            consequence(Effect::Plasticity, false)
+        )
+    } else {
+        let missed = missed_depth(
+            layers.first().map(|layer| layer.thickness_mm),
+            unworn.depth_mm,
+            indicators,
+        );
+        format!(
+            "{}, which misses a permanent depth of about {:.1e} mm{missed}",
+            consequence(Effect::Plasticity, false),
+            unworn.depth_mm
+        )
+    };
+    format!(
+        "the peak pressure of the unworn contact, {peak:.0} MPa, is {ratio:.2} times {of}, and yield begins at {onset:.2} times: {follows}"
+    )
+}
+
+/// A permanent depth as a share of what decides about the life: the outermost layer, or the worn depth of a bare side.
+fn missed_depth(layer_mm: Option<f64>, depth_mm: f64, indicators: &Indicators<'_>) -> String {
+    let Sides { slider, receptacle } = indicators.worn_depth_at_end();
+    let worn = slider + receptacle;
+    match layer_mm {
+        Some(thickness) => format!(
+            ", {} of the outermost layer: its life is uncertain by as much",
+            percent(depth_mm / thickness)
+        ),
+        None if worn > 0.0 => format!(
+            ", {} of the worn depth at the estimated end",
+            percent(depth_mm / worn)
+        ),
+        None => String::new(),
     }
 }
 

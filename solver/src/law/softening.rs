@@ -16,9 +16,12 @@ pub fn hardness_ratio(temperature_c: f64, melting_c: f64) -> f64 {
     1.0 - (temperature_c - REFERENCE_C) / (melting_c - REFERENCE_C)
 }
 
-/// Hardness ratios of a surface.
+/// Hardnesses of a surface.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Softening {
+    /// Hardness of each layer from the surface down, then of the base, at the temperature of the contact, MPa; `None` of an unknown one, empty
+    /// where none is known.
+    pub hardness_mpa: Vec<Option<f64>>,
     /// H(T)/H(T0) of each layer from the surface down, then of the base; `None` of an unknown one, whose rate stays. Empty at T0.
     pub ratios: Vec<Option<f64>>,
     /// Distance to the melting temperature of each layer from the surface down, then of the base, K; `None` where it is not known, or
@@ -108,6 +111,7 @@ mod tests {
     #[test]
     fn unknown_ratios_leave_the_rates_and_are_named() {
         let softening = Softening {
+            hardness_mpa: Vec::new(),
             ratios: vec![Some(0.5), None],
             margins_k: Vec::new(),
             lacks_melting: true,

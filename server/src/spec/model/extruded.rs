@@ -1,13 +1,11 @@
 //! Extruded bodies: their width, layers and ends, and what they need of the rest of a specification.
 
-use api::problem::Fault;
 use api::spec::{Ends, Model, SystemKind};
 use solver::extruded::{ExtrudedError, ExtrudedScene, MOST_LAYERS};
 use solver::scene::{self, Conduction, Extruded, Scene};
 use solver::sides::Sides;
 
 use super::length::length;
-use super::yielding::yields;
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::{Sourced, assumed, source};
 
@@ -134,9 +132,4 @@ pub(super) fn check_size(scene: &Scene, largest_zone: Sides<usize>, diagnostics:
         let detail = error.to_string();
         diagnostics.fault("/model/layers", detail);
     }
-}
-
-/// Warnings of a contact that yields.
-pub(super) fn warnings(scene: &Scene) -> Vec<Fault> {
-    yields(scene).into_iter().collect()
 }

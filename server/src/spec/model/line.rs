@@ -9,7 +9,6 @@ use solver::scene::{self, Conduction, LineShape, Scene};
 use solver::station::{StationError, StationScene};
 
 use super::length::length;
-use super::yielding::yields;
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::assumed;
 use crate::spec::system::{LENGTH_MM, Shapes};
@@ -280,10 +279,9 @@ fn stations(spec: &Spec, diagnostics: &mut Diagnostics) -> Option<usize> {
     usize::try_from(count).ok()
 }
 
-/// Warnings of a straight line whose ends count, and of a contact that yields.
+/// Warnings of a straight line whose ends count, and of a crown whose contact is about round.
 pub(super) fn warnings(scene: &Scene) -> Vec<Fault> {
-    let warnings = short(scene).into_iter().chain(round(scene));
-    warnings.chain(yields(scene)).collect()
+    short(scene).into_iter().chain(round(scene)).collect()
 }
 
 /// A warning of a crown whose contact is about as long as wide.

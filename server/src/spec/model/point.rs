@@ -8,7 +8,6 @@ use solver::point;
 use solver::scene::{self, Conduction, Point, Scene};
 use solver::sides::Sides;
 
-use super::yielding::yields;
 use crate::spec::diagnostics::Diagnostics;
 
 /// Largest half-length of a contact over the height of a body that is taken as a half-space: its compliance is then a few per cent lower.
@@ -98,5 +97,5 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Fault> {
     }
     let warnings = warnings.into_iter();
     let warnings = warnings.map(|detail| Fault::new("/model/dimension", detail));
-    warnings.chain(yields(scene)).collect()
+    warnings.collect()
 }

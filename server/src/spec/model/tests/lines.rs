@@ -232,8 +232,11 @@ fn crowned_lines_are_warned_of() {
     let copper = r#","materials":{"slider":"copper","receptacle":"copper"},"plating":{"slider":[],"receptacle":[]},
         "interface":{"wear":{"slider":null,"receptacle":{"law":"archard","k":1e-5,"hardness_mpa":427}}}"#;
     assert_eq!(
-        warned(&line(r#","crown_radius_mm":10"#, copper), "/load"),
+        warned(
+            &line(r#","crown_radius_mm":10"#, copper),
+            "/effects/plasticity"
+        ),
         1
     );
-    assert_eq!(warned(&line("", copper), "/load"), 0);
+    assert_eq!(warned(&line("", copper), "/effects/plasticity"), 0);
 }
