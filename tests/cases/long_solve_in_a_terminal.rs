@@ -75,6 +75,11 @@ fn a_solve_of_hours_needs_to_be_confirmed() {
     assert_eq!(short.child.wait().expect("it ends").code(), Some(0));
 
     let mut confirmed = InTerminal::solve(folder, LONG, &["--yes"]);
+    assert!(
+        confirmed.shows("h of processor time on this machine"),
+        "{}",
+        confirmed.shown
+    );
     assert!(confirmed.shows("/100000000 cycles"), "{}", confirmed.shown);
     confirmed.child.kill().expect("it runs");
     confirmed.child.wait().expect("it ends");

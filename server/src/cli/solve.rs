@@ -25,12 +25,14 @@ use crate::spec::Resolved;
 
 /// An hour, s: in a terminal, a solve that is expected to take more processor time is confirmed first.
 const HOUR_S: f64 = 3_600.0;
+/// A minute, s: in a terminal, the expected processor time of a solve that takes more is stated first.
+const MINUTE_S: f64 = 60.0;
 
 pub(super) fn run(arguments: &SolveArguments) -> Ended {
     let (out, format) = (arguments.out.as_deref(), Format::json_if(arguments.json));
     let mut resolved = specification::resolved_for(&arguments.spec, out)?;
-    if !arguments.yes && is_interactive() {
-        confirm(&resolved)?;
+    if is_interactive() {
+        announce(&resolved, arguments.yes)?;
     }
     resolved.scene.threads = processors();
     let mut recorded = Recorded::default();
@@ -59,17 +61,26 @@ fn is_interactive() -> bool {
     std::io::stdin().is_terminal() && std::io::stderr().is_terminal()
 }
 
-/// Refuses a solve that is expected to take long on this machine.
-fn confirm(resolved: &Resolved) -> Ended {
+/// States the expected processor time of a solve on this machine where a user would wait for it; refuses one of more than an hour that is
+/// not confirmed.
+fn announce(resolved: &Resolved, is_confirmed: bool) -> Ended {
     let cache = CalibrationCache::open(cache_file());
     let plan = Estimate::of(resolved).plan(resolved, cache.get_or_measure());
-    match plan.estimates.get("cpu_s") {
-        Some(seconds) if *seconds > HOUR_S => Err(unusable(format_args!(
-            "the solve is expected to take {} h of processor time on this machine; start it with --yes",
-            rounded(seconds / HOUR_S)
-        ))),
-        _ => Ok(()),
+    let seconds = plan.estimates.get("cpu_s").copied().unwrap_or_default();
+    let duration = if seconds > HOUR_S {
+        format!("{} h", rounded(seconds / HOUR_S))
+    } else {
+        format!("{} min", rounded(seconds / MINUTE_S))
+    };
+    let expected =
+        format!("the solve is expected to take {duration} of processor time on this machine");
+    if seconds > HOUR_S && !is_confirmed {
+        return Err(unusable(format_args!("{expected}; start it with --yes")));
     }
+    if seconds > MINUTE_S {
+        write_err(format_args!("fretwear: {expected}"));
+    }
+    Ok(())
 }
 
 #[derive(Default)]

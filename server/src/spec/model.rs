@@ -7,6 +7,7 @@ mod line;
 mod point;
 mod preset;
 mod section_only;
+mod stroke;
 
 use api::problem::Fault;
 use api::spec::{Dimension, LoadKind, Model, Spec, SystemKind};
@@ -169,13 +170,17 @@ pub(super) fn with_dimension(
     (scene, None)
 }
 
-/// Warnings of a contact that is none of its dimension.
+/// Warnings of a contact that is none of its dimension, or leaves the receptacle.
 pub(super) fn warnings(scene: &Scene) -> Vec<Fault> {
-    match scene.dimension {
+    let of_dimension = match scene.dimension {
         solver::scene::Dimension::PlaneStrain | solver::scene::Dimension::Extruded(_) => Vec::new(),
         solver::scene::Dimension::Point(_) => point::warnings(scene),
         solver::scene::Dimension::Line(_) => line::warnings(scene),
-    }
+    };
+    stroke::warnings(scene)
+        .into_iter()
+        .chain(of_dimension)
+        .collect()
 }
 
 /// Checks the size of what a meshed scene is condensed to.
