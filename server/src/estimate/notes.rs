@@ -1,7 +1,9 @@
 //! Notes of a plan: contradictions in the source of the presets that concern the values of the specification.
 
 use api::spec::{EnumValue, LoadKind, Preset, Provenance, Spec, SystemKind, WearLaw};
-use solver::model::resolution;
+use solver::model::expected_wear::crown_half_lengths_mm;
+use solver::model::{resolution, unworn_contact};
+use solver::point::{PointScene, SlipRegime};
 use solver::scene::{LineShape, RingMotion};
 
 use crate::spec::{Resolved, material_name};
@@ -24,6 +26,7 @@ const HARDNESSES: [(f64, &str); 2] = [
 pub(crate) fn notes(resolved: &Resolved) -> Vec<String> {
     let mut notes: Vec<String> = resolved.chosen.iter().cloned().collect();
     notes.extend(kept_platings(resolved));
+    notes.extend(not_in_estimate(resolved));
     notes.extend(hardnesses(resolved));
     if resolved.kind == SystemKind::FuzzButton {
         notes.extend(fuzz_button(resolved));
@@ -38,6 +41,34 @@ pub(crate) fn notes(resolved: &Resolved) -> Vec<String> {
         ));
     }
     notes
+}
+
+/// What the stated errors of a crown or a partly sticking point do not hold.
+fn not_in_estimate(resolved: &Resolved) -> Option<String> {
+    let scene = &resolved.scene;
+    if let Some((across, _)) = crown_half_lengths_mm(scene) {
+        let height = scene
+            .slider
+            .shape
+            .height_mm
+            .min(scene.receptacle.shape.height_mm);
+        let along = unworn_contact::largest_half_width(scene);
+        return Some(format!(
+            "the stated errors of an elliptical contact along a line, {along:.2e} by {across:.2e} mm, compare finer meshes, increments, jumps and \
+             sections; they do not hold that the bodies are {height} mm high instead of half-spaces, and sections that only their forces couple: an \
+             unworn ellipse 10 times as long as wide has 2 to 3 % more line load in its middle than Hertz' on bodies 50 to 13 half-widths high"
+        ));
+    }
+    let partial = PointScene::of(scene, SlipRegime::Partial)?;
+    let annulus = partial.slip_annulus_over_half_length()?;
+    let cells = annulus * partial.accuracy.cells_per_half_length;
+    (partial.may_stick() && !scene.accuracy.estimate_errors).then(|| {
+        format!(
+            "the edge of the stick zone lies between cells, and {cells:.1} cells are across what slips of the unworn contact: depths are \
+             uncertain by up to about {:.0} %, which only estimated errors state",
+            50.0 / cells
+        )
+    })
 }
 
 /// The platings that the preset gives, so that no plan hides what wears first.

@@ -218,6 +218,13 @@ impl PointScene {
         3.0 * self.friction * self.force_n * compliance / (16.0 * (along * across).sqrt())
     }
 
+    /// Width over the half-length of the annulus that slips at the turning points of the unworn contact: 1 - c/a with the stick zone c of
+    /// Mindlin's sphere, A/A_c = 1 - (c/a)^2 (Johnson 1985, eq. 7.41); `None` where all of it slips.
+    pub fn slip_annulus_over_half_length(&self) -> Option<f64> {
+        let sticking = 1.0 - self.amplitude_mm.abs() / self.onset_of_gross_slip_mm();
+        (sticking > 0.0).then(|| 1.0 - sticking.sqrt())
+    }
+
     /// Leading-edge step over the indentation that a cycle leaves by specific wear rates in 1/MPa, under a contact of a half-length in mm.
     pub(crate) fn step_over_indentation(&self, rates: Sides<f64>, half_length: f64) -> f64 {
         let stroke = 2.0 * self.amplitude_mm.abs();
@@ -233,7 +240,7 @@ impl PointScene {
     }
 
     /// Whether a part of the contact may stick: the amplitude is small against the contact.
-    pub(crate) fn may_stick(&self) -> bool {
+    pub fn may_stick(&self) -> bool {
         self.amplitude_mm.abs() <= LARGEST_PARTIAL * self.half_lengths_mm().0
     }
 
