@@ -128,20 +128,27 @@ impl Request {
         machine: Option<&MachineFigures>,
         accept: &Accept<'_>,
     ) -> Result<NewBatch, ExpandError> {
-        let (name, first, plan, expansion) = match self {
+        let (name, base, first, plan, expansion) = match self {
             Self::Sweep(request) => {
                 let expanded = sweep::expand(request, accept)?;
                 let expansion = expansion(request, &expanded, machine)?;
-                (&request.name, expanded.first, None, expansion)
+                (
+                    &request.name,
+                    &request.base,
+                    expanded.first,
+                    None,
+                    expansion,
+                )
             }
             Self::AccuracyStudy(request) => {
                 let machine = machine.ok_or(ExpandError::Unmeasured)?;
                 let (variations, plan) = accuracy::request::expand(request, machine, accept)?;
-                (&request.name, variations, Some(plan), None)
+                (&request.name, &request.base, variations, Some(plan), None)
             }
         };
         Ok(NewBatch {
             name: name.clone(),
+            base: base.to_string(),
             jobs: (0..)
                 .zip(first)
                 .map(|(position, variation)| job(position, variation, machine))
@@ -231,6 +238,7 @@ fn mean_cpu_s(sample: &[Estimate], machine: Option<&MachineFigures>) -> Option<f
 
 fn job(position: u64, variation: Variation, machine: Option<&MachineFigures>) -> NewBatchJob {
     let job = NewJob {
+        sent: variation.sent,
         plan: variation.estimate.plan(&variation.resolved, machine),
         spec: variation.resolved.spec,
         options: SubmitOptions {

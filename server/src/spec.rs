@@ -115,6 +115,12 @@ pub fn read(bytes: &[u8]) -> Result<Resolved, Refused> {
     }
 }
 
+/// The text of a submitted document.
+pub fn text(bytes: &[u8]) -> String {
+    let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
 /// Resolves a specification.
 ///
 /// # Errors

@@ -62,6 +62,9 @@ async fn a_job_is_submitted_followed_and_fetched() {
     let summary: Value = serde_json::from_str(&watched.stdout).expect("the summary");
     assert_eq!(summary["cycles_done"], 20);
 
+    let sent = client(folder, &server.base, &["spec", id]).await;
+    assert_eq!((sent.code, sent.stdout.trim_end()), (Some(0), SHORT));
+
     let fetched = client(folder, &server.base, &["fetch", id, "--out", "fetched"]).await;
     assert_eq!(fetched.code, Some(0), "{}", fetched.stderr);
     let solved = fretwear(folder, &["solve", "spec.json", "--out", "solved"]);

@@ -32,7 +32,7 @@ use evaluation::evaluate;
 pub use error::StudyError;
 pub use outcomes::study;
 pub use run::{Found, Run};
-pub use run_plan::{BUDGET_S, RunPlan, RunPlanError};
+pub use run_plan::{BUDGET_S, Base, RunPlan, RunPlanError};
 
 /// A study on this machine.
 #[derive(Debug, Clone)]
@@ -54,7 +54,13 @@ pub struct Request<'a> {
 /// [`StudyError`] if processes cannot be run or no run succeeds.
 pub fn make(request: &Request<'_>, on_run: &mut dyn FnMut(&str)) -> Result<Study, StudyError> {
     let (resolved, budget_s) = (request.resolved, request.budget_s);
-    let run_plan = RunPlan::within(resolved, request.machine, budget_s, &|_| Ok(()))?;
+    // A specification can be serialized.
+    let sent = serde_json::to_value(&resolved.spec).unwrap_or_default();
+    let base = Base {
+        sent: &sent,
+        resolved,
+    };
+    let run_plan = RunPlan::within(base, request.machine, budget_s, &|_| Ok(()))?;
     let mut left_out = run_plan.left_out;
     let mut runs = Vec::new();
     let mut budget = Budget::new(budget_s);

@@ -48,8 +48,8 @@ impl Kind {
     pub fn links(self, id: Uuid) -> BTreeMap<String, String> {
         let own = format!("/v1/{}/{id}", self.collection());
         let relations: &[&str] = match self {
-            Self::Sweep => &["cancel", "outcomes"],
-            Self::AccuracyStudy => &["cancel", "picture", "table"],
+            Self::Sweep => &["base", "cancel", "outcomes"],
+            Self::AccuracyStudy => &["base", "cancel", "picture", "table"],
         };
         let link = |relation: &&str| ((*relation).to_owned(), format!("{own}/{relation}"));
         let mut links: BTreeMap<_, _> = relations.iter().map(link).collect();

@@ -1,4 +1,4 @@
-//! Commands that use a service elsewhere: `submit`, `list`, `watch`, `fetch`, `cancel`, `retry` and `worker-token`.
+//! Commands that use a service elsewhere: `submit`, `list`, `watch`, `fetch`, `spec`, `cancel`, `retry` and `worker-token`.
 //!
 //! Exit codes: 0, the job succeeded, or what was asked for was done; 1, the job failed, or another error; 2, the
 //! arguments cannot be used, or the service refused the request; 3, the job was cancelled; 4, the service could not be reached; 130, interrupted (Ctrl-C).
@@ -7,6 +7,7 @@ mod connection;
 mod control;
 mod fetch;
 mod list;
+mod spec;
 mod submit;
 mod watch;
 mod worker_token;
@@ -29,6 +30,8 @@ pub(super) enum ClientCommand {
     Watch(watch::WatchArguments),
     /// Write the files of a job into a folder, and compare their SHA-256.
     Fetch(fetch::FetchArguments),
+    /// Write the specification of a job as it was sent to standard output, to be changed and submitted again.
+    Spec(spec::SpecArguments),
     /// Cancel jobs; results computed so far remain.
     Cancel(control::ControlArguments),
     /// Queue failed or cancelled jobs again, from their last checkpoints.
@@ -44,6 +47,7 @@ pub(super) fn run(command: ClientCommand) -> Ended {
         ClientCommand::List(arguments) => list::run(&arguments),
         ClientCommand::Watch(arguments) => watch::run(&arguments),
         ClientCommand::Fetch(arguments) => fetch::run(&arguments),
+        ClientCommand::Spec(arguments) => spec::run(&arguments),
         ClientCommand::Cancel(arguments) => control::run(&arguments, Action::Cancel),
         ClientCommand::Retry(arguments) => control::run(&arguments, Action::Retry),
         ClientCommand::WorkerToken(action) => worker_token::run(&action),

@@ -48,6 +48,7 @@ pub(super) fn routes_and_document() -> (Router<App>, Document) {
     OpenApiRouter::with_openapi(Interface::openapi())
         .routes(routes!(jobs::submit::submit, jobs::list::list))
         .routes(routes!(jobs::show::show, jobs::delete::remove))
+        .routes(routes!(jobs::show_spec::show_spec))
         .routes(routes!(jobs::cancel::cancel))
         .routes(routes!(jobs::retry::retry))
         .routes(routes!(jobs::retry_filtered::retry_filtered))
@@ -67,6 +68,7 @@ pub(super) fn routes_and_document() -> (Router<App>, Document) {
             batches::show::show_sweep,
             batches::delete::remove_sweep
         ))
+        .routes(routes!(batches::show_base::show_sweep_base))
         .routes(routes!(batches::outcomes::sweep_outcomes))
         .routes(routes!(batches::cancel::cancel_sweep))
         .routes(routes!(batches::retry::retry_sweep))
@@ -78,6 +80,7 @@ pub(super) fn routes_and_document() -> (Router<App>, Document) {
             batches::show::show_study,
             batches::delete::remove_study
         ))
+        .routes(routes!(batches::show_base::show_study_base))
         .routes(routes!(batches::outcomes::study_table))
         .routes(routes!(batches::picture::study_picture))
         .routes(routes!(batches::cancel::cancel_study))

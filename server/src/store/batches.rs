@@ -49,6 +49,8 @@ impl BatchEnding {
 pub struct NewBatch {
     /// Name for people.
     pub name: Option<String>,
+    /// The base specification as it was sent, JSON.
+    pub base: String,
     /// Its jobs in order, or the first of them.
     pub jobs: Vec<NewBatchJob>,
     /// Evaluation plan, JSON.

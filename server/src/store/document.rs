@@ -68,6 +68,7 @@ pub(in crate::store) fn links(id: Uuid) -> BTreeMap<String, String> {
     let own = format!("/v1/jobs/{id}");
     let relations = [
         ("self", ""),
+        ("spec", "/spec"),
         ("events", "/events"),
         ("cancel", "/cancel"),
         ("retry", "/retry"),

@@ -10,6 +10,8 @@ use crate::store::list_order::{ListPlace, Order};
 /// A job to be queued.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NewJob {
+    /// The specification as it was sent, JSON.
+    pub sent: String,
     /// The resolved specification.
     pub spec: Spec,
     /// Its plan.

@@ -48,6 +48,7 @@ mod order;
 mod pages;
 mod retention;
 mod roles;
+pub(crate) mod sent_specifications;
 mod tokens;
 mod verification;
 mod workers;
@@ -160,6 +161,10 @@ pub(crate) fn request(memory_mb: i64, lease: Duration) -> ClaimRequest {
         token: None,
     }
 }
+
+/// A specification as it was sent, which no program would write so.
+pub(in crate::store) const SENT: &str =
+    "{ \"system\": {\"kind\":\"fuzz_button\"}, \"cycles\": 1e1 }";
 
 /// An update with the next number under a lease, of those that are numbered here.
 pub(in crate::store) fn numbered(lease: impl Into<Lease>, update: JobUpdate) -> JobUpdate {
@@ -345,6 +350,7 @@ pub(in crate::store) fn new_job(options: SubmitOptions) -> NewJob {
     let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
     let plan = crate::estimate::Estimate::of(&resolved).plan(&resolved, None);
     NewJob {
+        sent: SENT.to_owned(),
         spec: resolved.spec,
         plan,
         options,

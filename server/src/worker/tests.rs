@@ -77,6 +77,7 @@ impl Scripted {
             ..resolved.spec.clone()
         };
         let job = NewJob {
+            sent: "{}".to_owned(),
             plan: crate::estimate::Estimate::of(&resolved).plan(&resolved, None),
             spec,
             options: SubmitOptions::default(),
@@ -223,6 +224,7 @@ async fn a_job_with_a_cancel_request_whose_worker_is_lost_has_documents_of_its_r
     let store = Store::open(&url).await.expect("a store");
     let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
     let job = NewJob {
+        sent: "{}".to_owned(),
         plan: crate::estimate::Estimate::of(&resolved).plan(&resolved, None),
         spec: resolved.spec,
         options: SubmitOptions::default(),

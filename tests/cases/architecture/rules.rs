@@ -64,6 +64,7 @@ const SEVERAL_PATHS: [&str; 10] = [
     "server/src/http/routes/batches/outcomes.rs",
     "server/src/http/routes/batches/retry.rs",
     "server/src/http/routes/batches/show.rs",
+    "server/src/http/routes/batches/show_base.rs",
     "server/src/http/routes/batches/submit.rs",
     // The three parts of a snapshot.
     "server/src/http/routes/results/read_snapshot.rs",

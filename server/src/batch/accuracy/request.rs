@@ -5,7 +5,7 @@ use api::problem::Fault;
 use api::study::StudyRequest;
 
 use crate::batch::accuracy::evaluation_plan::EvaluationPlan;
-use crate::batch::accuracy::run_plan::{BUDGET_S, RunPlan, RunPlanError};
+use crate::batch::accuracy::run_plan::{BUDGET_S, Base, RunPlan, RunPlanError};
 use crate::batch::error::ExpandError;
 use crate::batch::variation::{Accept, Variation, name_fault};
 use crate::spec::{Refused, Resolved};
@@ -23,14 +23,19 @@ pub(in crate::batch) fn expand(
     machine: &MachineFigures,
     accept: &Accept<'_>,
 ) -> Result<(Vec<Variation>, String), ExpandError> {
-    let base = resolve(request)?;
+    let resolved = resolve(request)?;
     let budget_s = request.budget_s.unwrap_or(BUDGET_S);
-    let run_plan = RunPlan::within(&base, machine, budget_s, accept).map_err(refused)?;
-    let evaluation_plan = EvaluationPlan::new(base.spec, run_plan.grid, run_plan.left_out);
+    let base = Base {
+        sent: &request.base,
+        resolved: &resolved,
+    };
+    let run_plan = RunPlan::within(base, machine, budget_s, accept).map_err(refused)?;
+    let evaluation_plan = EvaluationPlan::new(resolved.spec, run_plan.grid, run_plan.left_out);
     let runs = run_plan.runs.into_iter().map(|run| {
         let accuracy = serde_json::to_value(run.accuracy.as_spec())?;
         Ok(Variation {
             overrides: [("/accuracy".to_owned(), accuracy)].into(),
+            sent: run.sent,
             resolved: run.resolved,
             estimate: run.estimate,
         })

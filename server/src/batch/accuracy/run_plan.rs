@@ -1,7 +1,7 @@
 //! The run plan of a study: its runs, chosen before anything is solved, by their expected time.
 
 use api::plan::MachineFigures;
-use api::spec::Spec;
+use serde_json::{Value, json};
 
 use crate::batch::accuracy::grid::{Baseline, Grid};
 use crate::batch::accuracy::run_accuracy::RunAccuracy;
@@ -40,11 +40,22 @@ pub enum RunPlanError {
     },
 }
 
+/// The specification whose accuracy a study varies.
+#[derive(Debug, Clone, Copy)]
+pub struct Base<'a> {
+    /// As it was sent.
+    pub sent: &'a Value,
+    /// With every default filled in.
+    pub resolved: &'a Resolved,
+}
+
 /// A planned run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlannedRun {
     /// Its accuracy setting.
     pub accuracy: RunAccuracy,
+    /// Its specification as it would be sent, JSON.
+    pub sent: String,
     /// Its specification.
     pub resolved: Resolved,
     /// Its estimate.
@@ -70,12 +81,12 @@ impl RunPlan {
     /// # Errors
     /// [`RunPlanError`] if no run can be resolved, is accepted and fits.
     pub fn within(
-        scene: &Resolved,
+        base: Base<'_>,
         machine: &MachineFigures,
         budget_s: f64,
         accept: &Accept<'_>,
     ) -> Result<Self, RunPlanError> {
-        let planned = |accuracy| plan_run((scene, accuracy), machine, accept);
+        let planned = |accuracy| plan_run((base, accuracy), machine, accept);
         let mut chosen = Chosen::default();
         for tolerance in TOLERANCES {
             let most_s = TOLERANCE_SHARE * EXPECTED_SHARE * budget_s;
@@ -83,9 +94,9 @@ impl RunPlan {
             chosen.add(accuracy, planned(accuracy), most_s);
         }
         let most_s = EXPECTED_SHARE * budget_s;
-        let estimate = Estimate::of(scene);
+        let estimate = Estimate::of(base.resolved);
         let expected_s = machine::cpu_s(machine, &estimate.workload);
-        let baseline = Baseline::of(scene, &estimate, expected_s);
+        let baseline = Baseline::of(base.resolved, &estimate, expected_s);
         let (grid, runs) = grid_within(&baseline, most_s - chosen.spent_s, &planned);
         for (settings, run) in runs {
             chosen.add(RunAccuracy::Fixed(settings), run, most_s);
@@ -97,18 +108,20 @@ impl RunPlan {
 /// A run, or why it is refused.
 type Planned = Result<PlannedRun, Refused>;
 
-/// Plans a run of a scene at another accuracy.
+/// Plans a run at another accuracy.
 fn plan_run(
-    (scene, accuracy): (&Resolved, RunAccuracy),
+    (base, accuracy): (Base<'_>, RunAccuracy),
     machine: &MachineFigures,
     accept: &Accept<'_>,
 ) -> Planned {
-    let resolved = spec::resolve(&run_spec(&scene.spec, accuracy)).map_err(Refused::Faults)?;
+    let sent = run_spec(base, accuracy).to_string();
+    let resolved = spec::read(sent.as_bytes())?;
     let estimate = Estimate::of(&resolved);
     accept(&estimate)?;
     let expected_s = machine::cpu_s(machine, &estimate.workload);
     Ok(PlannedRun {
         accuracy,
+        sent,
         resolved,
         estimate,
         expected_s,
@@ -208,18 +221,24 @@ fn reason(refused: &Refused) -> String {
     }
 }
 
-/// Returns the specification of a run.
-fn run_spec(spec: &Spec, accuracy: RunAccuracy) -> Spec {
-    let mut spec = Spec {
-        accuracy: accuracy.as_spec(),
-        ..spec.clone()
-    };
+/// Returns the specification of a run: the base with another accuracy and less output.
+fn run_spec(base: Base<'_>, accuracy: RunAccuracy) -> Value {
+    let Base { sent, resolved } = base;
+    let mut run = sent.clone();
+    run["accuracy"] = json!(accuracy.as_spec());
     // The last cycle always has a snapshot; any other snapshot would cut jumps short.
-    spec.output.fields = Some(false);
-    spec.output.snapshots_at_distance_mm = None;
-    let cycles = (!spec::is_continuous(&spec)).then(|| spec::cycles(&spec));
-    spec.output.snapshots_at_cycles = cycles.map(|cycles| vec![cycles]);
-    spec
+    let cycles = (!spec::is_continuous(&resolved.spec)).then(|| [spec::cycles(&resolved.spec)]);
+    let output = &mut run["output"];
+    output["fields"] = json!(false);
+    output["snapshots_at_cycles"] = json!(cycles);
+    if let Some(output) = output.as_object_mut() {
+        output.remove("snapshots_at_distance_mm");
+    }
+    // The dimension of the base, where it was chosen for its output too.
+    if resolved.chosen.is_some() {
+        run["model"] = json!(resolved.spec.model);
+    }
+    run
 }
 
 #[cfg(test)]

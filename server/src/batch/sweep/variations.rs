@@ -66,8 +66,9 @@ impl<'a> Variations<'a> {
     pub(super) fn at(&self, position: u64) -> Result<Variation, Vec<(String, String)>> {
         let overrides = self.changes(position);
         match vary(&self.request.base, &self.resolved, &overrides) {
-            Ok(resolved) => Ok(Variation {
+            Ok((sent, resolved)) => Ok(Variation {
                 overrides,
+                sent,
                 estimate: Estimate::of(&resolved),
                 resolved,
             }),
@@ -94,8 +95,12 @@ fn combination(grid: &BTreeMap<String, Vec<Value>>, mut position: u64) -> Change
     changes
 }
 
-/// Resolves the base with its changes.
-fn vary(base: &Value, resolved: &Value, overrides: &Changes) -> Result<Resolved, Vec<Fault>> {
+/// The base with its changes, JSON, and what it resolves to.
+fn vary(
+    base: &Value,
+    resolved: &Value,
+    overrides: &Changes,
+) -> Result<(String, Resolved), Vec<Fault>> {
     let mut document = base.clone();
     let set = |(pointer, value): (&String, &Value)| {
         let set = patch::set(&mut document, resolved, pointer, value.clone());
@@ -105,16 +110,17 @@ fn vary(base: &Value, resolved: &Value, overrides: &Changes) -> Result<Resolved,
     if !faults.is_empty() {
         return Err(faults);
     }
-    // A document that was read can be serialized.
-    let bytes = serde_json::to_vec(&document).unwrap_or_default();
-    crate::spec::read(&bytes).map_err(|refused| match refused {
+    let sent = document.to_string();
+    let read = crate::spec::read(sent.as_bytes());
+    let read = read.map_err(|refused| match refused {
         Refused::Parse(error) => {
             let mut faults = vec![Fault::new(error.pointer, error.detail)];
             faults.extend(error.others);
             faults
         }
         Refused::Faults(faults) => faults,
-    })
+    });
+    Ok((sent, read?))
 }
 
 /// Moves a fault to its pointer in the submitted sweep: into the changes of its job, or into the base.

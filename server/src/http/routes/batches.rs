@@ -10,4 +10,5 @@ pub(crate) mod outcomes;
 pub(crate) mod picture;
 pub(crate) mod retry;
 pub(crate) mod show;
+pub(crate) mod show_base;
 pub(crate) mod submit;

@@ -1,4 +1,4 @@
-//! Jobs: plan, submit, list, show, cancel, retry, delete, stream.
+//! Jobs: plan, submit, list, show, specification as it was sent, cancel, retry, delete, stream.
 
 pub(crate) mod cancel;
 pub(crate) mod delete;
@@ -9,5 +9,6 @@ pub(crate) mod plan;
 pub(crate) mod retry;
 pub(crate) mod retry_filtered;
 pub(crate) mod show;
+pub(crate) mod show_spec;
 pub(crate) mod stream;
 pub(crate) mod submit;

@@ -37,6 +37,12 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn job(&self, id: Uuid) -> Result<Option<StoredJob>, StoreError>;
 
+    /// Returns the specification of a job as it was sent, JSON; `None` if there is no such job, or an earlier version has queued it.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn sent_spec(&self, id: Uuid) -> Result<Option<String>, StoreError>;
+
     /// Returns the jobs that pass a filter, in its order.
     ///
     /// # Errors
@@ -105,6 +111,12 @@ operations! {
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn batches(&self, filter: BatchFilter) -> Result<Vec<BatchOverview>, StoreError>;
+
+    /// Returns the base specification of a batch as it was sent, JSON; `None` if there is no such batch, or an earlier version has queued it.
+    ///
+    /// # Errors
+    /// [`StoreError`] if the database fails.
+    pub async fn sent_base(&self, batch: Uuid) -> Result<Option<String>, StoreError>;
 
     /// Checks whether a batch exists; with `with_plan`, whether it has an evaluation plan too.
     ///

@@ -114,6 +114,18 @@ impl PostgresStore {
         jobs.collect()
     }
 
+    pub(in crate::store) async fn sent_base(
+        &self,
+        batch: Uuid,
+    ) -> Result<Option<String>, StoreError> {
+        let base: Option<Option<String>> =
+            sqlx::query_scalar("SELECT base FROM sweeps WHERE id = $1")
+                .bind(batch)
+                .fetch_optional(&self.readers)
+                .await?;
+        Ok(base.flatten())
+    }
+
     pub(in crate::store) async fn batches(
         &self,
         filter: BatchFilter,
@@ -179,11 +191,12 @@ async fn insert_batch(
     now: Now,
 ) -> Result<bool, StoreError> {
     let added = sqlx::query(
-        "INSERT INTO sweeps (id, name, created_at, request_key, body_sha256) VALUES ($1, $2, $3, $4, $5) \
+        "INSERT INTO sweeps (id, name, base, created_at, request_key, body_sha256) VALUES ($1, $2, $3, $4, $5, $6) \
          ON CONFLICT (request_key) DO NOTHING",
     )
     .bind(id)
     .bind(&batch.name)
+    .bind(&batch.base)
     .bind(now.system_ms)
     .bind(key.map(|key| &key.key))
     .bind(key.map(|key| key.meaning_sha256.as_slice()))

@@ -95,6 +95,7 @@ pub(super) async fn insert(
         let labels = job.spec.labels.iter();
         labels.map(|(key, value)| (row.id, (&key[..], &value[..])))
     });
+    let sent = new.iter().map(|(job, _)| &job.sent[..]);
     let (labelled, labels): (Vec<Uuid>, Vec<_>) = labels.unzip();
     let (keys, values): (Vec<&str>, Vec<&str>) = labels.into_iter().unzip();
     sqlx::query(
@@ -105,7 +106,8 @@ pub(super) async fn insert(
          place, deadline_at, memory_mb, cpu_ms, queued_at, sweep_id) \
          SELECT id, system, spec, plan, 'queued', $11, $12, progress, 1, priority, place, deadline_at, memory_mb, cpu_ms, $13, $14 \
          FROM new), \
-         labelled AS (INSERT INTO labels (job_id, key, value) SELECT * FROM unnest($15::uuid[], $16::text[], $17::text[])) \
+         labelled AS (INSERT INTO labels (job_id, key, value) SELECT * FROM unnest($15::uuid[], $16::text[], $17::text[])), \
+         sent AS (INSERT INTO sent_specifications (job_id, spec) SELECT * FROM unnest($1::uuid[], $18::text[])) \
          INSERT INTO events (job_id, seq, name, data) SELECT id, 1, 'progress', progress FROM new",
     )
     .bind(each(new, |row| row.id))
@@ -125,6 +127,7 @@ pub(super) async fn insert(
     .bind(labelled)
     .bind(keys)
     .bind(values)
+    .bind(sent.collect::<Vec<_>>())
     .execute(connection)
     .await?;
     Ok(())

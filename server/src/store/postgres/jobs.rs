@@ -52,6 +52,11 @@ impl PostgresStore {
         }))
     }
 
+    pub(in crate::store) async fn sent_spec(&self, id: Uuid) -> Result<Option<String>, StoreError> {
+        let sent = sqlx::query_scalar("SELECT spec FROM sent_specifications WHERE job_id = $1");
+        Ok(sent.bind(id).fetch_optional(&self.readers).await?)
+    }
+
     pub(in crate::store) async fn cancel(&self, id: Uuid) -> Result<Option<Cancelled>, StoreError> {
         let (mut transaction, now) = self.begin().await?;
         let effect = cancel(&mut transaction, id, now).await?;

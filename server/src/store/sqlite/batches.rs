@@ -108,6 +108,18 @@ impl SqliteStore {
         jobs.collect()
     }
 
+    pub(in crate::store) async fn sent_base(
+        &self,
+        batch: Uuid,
+    ) -> Result<Option<String>, StoreError> {
+        let base: Option<Option<String>> =
+            sqlx::query_scalar("SELECT base FROM sweeps WHERE id = ?")
+                .bind(batch.to_string())
+                .fetch_optional(&self.readers)
+                .await?;
+        Ok(base.flatten())
+    }
+
     pub(in crate::store) async fn batches(
         &self,
         filter: BatchFilter,
@@ -174,10 +186,11 @@ async fn insert_batch(
 ) -> Result<Uuid, StoreError> {
     let id = Uuid::now_v7();
     sqlx::query(
-        "INSERT INTO sweeps (id, name, created_at, request_key, body_sha256) VALUES (?, ?, ?, ?, ?)",
+        "INSERT INTO sweeps (id, name, base, created_at, request_key, body_sha256) VALUES (?, ?, ?, ?, ?, ?)",
     )
     .bind(id.to_string())
     .bind(&batch.name)
+    .bind(&batch.base)
     .bind(now.system_ms)
     .bind(key.map(|key| &key.key))
     .bind(key.map(|key| key.meaning_sha256.as_slice()))

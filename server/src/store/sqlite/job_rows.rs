@@ -111,6 +111,11 @@ pub(super) async fn insert(
     .bind(batch.map(|batch| batch.to_string()))
     .execute(&mut **transaction)
     .await?;
+    sqlx::query("INSERT INTO sent_specifications (job_id, spec) VALUES (?, ?)")
+        .bind(&id)
+        .bind(&job.sent)
+        .execute(&mut **transaction)
+        .await?;
     for (key, value) in &job.spec.labels {
         sqlx::query("INSERT INTO labels (job_id, key, value) VALUES (?, ?, ?)")
             .bind(&id)

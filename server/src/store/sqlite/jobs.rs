@@ -27,6 +27,12 @@ impl SqliteStore {
         }))
     }
 
+    pub(in crate::store) async fn sent_spec(&self, id: Uuid) -> Result<Option<String>, StoreError> {
+        let sent = sqlx::query_scalar("SELECT spec FROM sent_specifications WHERE job_id = ?")
+            .bind(id.to_string());
+        Ok(sent.fetch_optional(&self.readers).await?)
+    }
+
     pub(in crate::store) async fn cancel(&self, id: Uuid) -> Result<Option<Cancelled>, StoreError> {
         let write = async || {
             let mut transaction = self.writer.begin_with(BEGIN).await?;

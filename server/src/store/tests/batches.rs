@@ -18,10 +18,11 @@ on_both_engines! { Fixture:
 /// Number of jobs of a batch with an expansion.
 const JOBS: u64 = 5;
 
-fn new_jobs(positions: std::ops::Range<u64>) -> Vec<NewBatchJob> {
+pub(super) fn new_jobs(positions: std::ops::Range<u64>) -> Vec<NewBatchJob> {
     let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
     let plan = crate::estimate::Estimate::of(&resolved).plan(&resolved, None);
     let job = NewJob {
+        sent: SENT.to_owned(),
         spec: resolved.spec,
         plan,
         options: SubmitOptions::default(),
@@ -69,9 +70,14 @@ impl Fixture {
         self.batch(new_jobs(0..2), Some(expansion)).await
     }
 
-    async fn batch(&self, jobs: Vec<NewBatchJob>, expansion: Option<NewExpansion>) -> Uuid {
+    pub(super) async fn batch(
+        &self,
+        jobs: Vec<NewBatchJob>,
+        expansion: Option<NewExpansion>,
+    ) -> Uuid {
         let batch = NewBatch {
             name: None,
+            base: SENT.to_owned(),
             jobs,
             plan: None,
             expansion,

@@ -45,6 +45,7 @@ impl WithObjects {
         let spec = spec::read(br#"{"system":{"kind":"dimm"}}"#).expect("accepted");
         let plan = crate::estimate::Estimate::of(&spec).plan(&spec, None);
         let job = NewJob {
+            sent: "{}".to_owned(),
             spec: spec.spec,
             plan,
             options: SubmitOptions::default(),

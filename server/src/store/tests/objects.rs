@@ -19,6 +19,7 @@ on_both_engines! { WithObjects:
     a_job_with_a_damaged_file_keeps_its_results_and_others_are_moved,
     a_database_whose_results_are_elsewhere_is_not_opened_without_them,
     an_object_that_cannot_be_removed_stops_nothing,
+    results_that_are_moved_leave_what_was_sent,
 }
 
 /// A database whose results are moved into a folder of objects.
@@ -59,6 +60,7 @@ impl WithObjects {
         let spec = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
         let plan = crate::estimate::Estimate::of(&spec).plan(&spec, None);
         let job = NewJob {
+            sent: SENT.to_owned(),
             spec: spec.spec,
             plan,
             options: SubmitOptions::default(),
@@ -302,4 +304,11 @@ async fn a_backup_has_results_that_are_moved_meanwhile() {
     copy.delete(id).await.expect("the store");
     copy.move_results().await.1.expect("nothing to do");
     assert_eq!(database.objects().len(), 1);
+}
+
+async fn results_that_are_moved_leave_what_was_sent(database: WithObjects) {
+    let id = database.ended(Transition::Succeed).await;
+    database.moved().await;
+    let sent = database.store.sent_spec(id).await.expect("the store");
+    assert_eq!(sent.as_deref(), Some(SENT));
 }

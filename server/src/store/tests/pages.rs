@@ -43,6 +43,7 @@ async fn named(fixture: &Fixture, name: Option<&str>) -> Uuid {
     fixture
         .store
         .queue(&NewJob {
+            sent: "{}".to_owned(),
             spec,
             plan,
             options,

@@ -12,10 +12,31 @@ fn machine() -> MachineFigures {
     }
 }
 
+/// A specification that is read.
+struct Sent {
+    sent: Value,
+    resolved: Resolved,
+}
+
+impl Sent {
+    fn read(text: &str) -> Self {
+        Self {
+            sent: serde_json::from_str(text).expect("JSON"),
+            resolved: spec::read(text.as_bytes()).expect("accepted"),
+        }
+    }
+
+    fn base(&self) -> Base<'_> {
+        Base {
+            sent: &self.sent,
+            resolved: &self.resolved,
+        }
+    }
+}
+
 fn run_plan(budget_s: f64) -> RunPlan {
-    let text = br#"{"system":{"kind":"cylinder_on_flat"},"cycles":300}"#;
-    let scene = spec::read(text).expect("accepted");
-    RunPlan::within(&scene, &machine(), budget_s, &|_| Ok(())).expect("a run plan")
+    let scene = Sent::read(r#"{"system":{"kind":"cylinder_on_flat"},"cycles":300}"#);
+    RunPlan::within(scene.base(), &machine(), budget_s, &|_| Ok(())).expect("a run plan")
 }
 
 #[test]
@@ -35,9 +56,9 @@ fn expected_s(plan: &RunPlan) -> f64 {
 #[test]
 fn the_coarsest_grid_loses_the_runs_that_do_not_fit() {
     let text =
-        br#"{"system":{"kind":"dimm"},"cycles":1000000,"accuracy":{"overrides":{"cycle_jump":1}}}"#;
-    let scene = spec::read(text).expect("accepted");
-    let within = |budget_s| RunPlan::within(&scene, &machine(), budget_s, &|_| Ok(()));
+        r#"{"system":{"kind":"dimm"},"cycles":1000000,"accuracy":{"overrides":{"cycle_jump":1}}}"#;
+    let scene = Sent::read(text);
+    let within = |budget_s| RunPlan::within(scene.base(), &machine(), budget_s, &|_| Ok(()));
     let plan = within(100.0).expect("some runs fit");
     assert!(expected_s(&plan) <= 100.0, "{}", expected_s(&plan));
     assert!(plan.left_out.len() > 9, "{:?}", plan.left_out);
@@ -47,9 +68,9 @@ fn the_coarsest_grid_loses_the_runs_that_do_not_fit() {
 
 #[test]
 fn the_finest_run_of_a_grid_is_accepted() {
-    let text = br#"{"system":{"kind":"cylinder_on_flat"},"cycles":300}"#;
-    let scene = spec::read(text).expect("accepted");
-    let most = 1.5 * Estimate::of(&scene).footprint.dofs;
+    let text = r#"{"system":{"kind":"cylinder_on_flat"},"cycles":300}"#;
+    let scene = Sent::read(text);
+    let most = 1.5 * Estimate::of(&scene.resolved).footprint.dofs;
     let accept = |run: &Estimate| {
         let fault = || Fault::new("/accuracy", format!("{} unknowns", run.footprint.dofs));
         let small = run.footprint.dofs <= most;
@@ -57,7 +78,7 @@ fn the_finest_run_of_a_grid_is_accepted() {
             .then_some(())
             .ok_or_else(|| Refused::Faults(vec![fault()]))
     };
-    let plan = RunPlan::within(&scene, &machine(), 8e4, &accept).expect("some runs");
+    let plan = RunPlan::within(scene.base(), &machine(), 8e4, &accept).expect("some runs");
     let finest = RunAccuracy::Fixed(plan.grid.finest());
     assert!(plan.runs.iter().any(|run| run.accuracy == finest));
     assert!(
@@ -67,7 +88,7 @@ fn the_finest_run_of_a_grid_is_accepted() {
     );
     let reported = |line: &String| line.starts_with("tolerance") && line.ends_with("unknowns");
     assert!(plan.left_out.iter().any(reported), "{:?}", plan.left_out);
-    let refused = RunPlan::within(&scene, &machine(), 8e4, &|_| {
+    let refused = RunPlan::within(scene.base(), &machine(), 8e4, &|_| {
         Err(Refused::Faults(vec![Fault::new("/output", "too much")]))
     });
     assert!(matches!(refused, Err(RunPlanError::Refused(_))));
@@ -75,9 +96,9 @@ fn the_finest_run_of_a_grid_is_accepted() {
 
 #[test]
 fn a_grid_that_fits_but_cannot_be_meshed_is_made_coarser() {
-    let text = br#"{"system":{"kind":"fuzz_button"},"accuracy":{"preset":"fine"}}"#;
-    let scene = spec::read(text).expect("accepted");
-    let plan = RunPlan::within(&scene, &machine(), 86_400.0, &|_| Ok(())).expect("some runs");
+    let text = r#"{"system":{"kind":"fuzz_button"},"accuracy":{"preset":"fine"}}"#;
+    let scene = Sent::read(text);
+    let plan = RunPlan::within(scene.base(), &machine(), 86_400.0, &|_| Ok(())).expect("some runs");
     let finest = RunAccuracy::Fixed(plan.grid.finest());
     assert!(plan.runs.iter().any(|run| run.accuracy == finest));
 }
@@ -88,8 +109,8 @@ fn sections_of_a_line_are_varied_and_bodies_of_a_width_keep_their_layers() {
         let text = format!(
             r#"{{"system":{{"kind":"sd_card"}},"model":{model},"load":{{"kind":"force","n":0.5}},"cycles":300}}"#
         );
-        let scene = spec::read(text.as_bytes()).expect("accepted");
-        RunPlan::within(&scene, &machine(), 8e4, &|_| Ok(())).expect("some runs")
+        let scene = Sent::read(&text);
+        RunPlan::within(scene.base(), &machine(), 8e4, &|_| Ok(())).expect("some runs")
     };
     let line = plan(r#"{"dimension":"line","width_mm":0.8,"crown_radius_mm":10}"#);
     let levels = |run: &PlannedRun| match run.accuracy {
@@ -133,6 +154,30 @@ fn runs_differ_in_their_accuracy_alone() {
                 let element = overrides.contact_element_mm;
                 assert_eq!(element, Some(settings.contact_element_mm));
             }
+        }
+    }
+}
+
+#[test]
+fn values_that_the_base_leaves_to_their_defaults_are_not_given_by_a_run() {
+    let of_kind = |kind: &str| format!(r#"{{"system":{{"kind":"{kind}"}},"cycles":30}}"#);
+    for kind in ["dimm", "sd_card"] {
+        let base = Sent::read(&of_kind(kind));
+        let plan = RunPlan::within(base.base(), &machine(), 80.0, &|_| Ok(())).expect("some runs");
+        for run in &plan.runs {
+            let own = |pointer: &str| {
+                ["/accuracy", "/output"]
+                    .iter()
+                    .any(|part| pointer.starts_with(part))
+            };
+            let of_spec = |spec: &api::spec::Spec| {
+                let mut provenance = spec.provenance.clone();
+                provenance.retain(|pointer, _| !own(pointer));
+                provenance
+            };
+            assert_eq!(of_spec(&run.resolved.spec), of_spec(&base.resolved.spec));
+            let read = spec::read(run.sent.as_bytes()).expect("accepted");
+            assert_eq!(read, run.resolved);
         }
     }
 }

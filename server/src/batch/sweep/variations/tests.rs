@@ -118,7 +118,8 @@ fn leaves(value: &Value) -> BTreeMap<String, Value> {
 
 fn changed(base: &Value, known: &Value, pointer: &str, value: Value) -> Result<Resolved, String> {
     let changes = Changes::from([(pointer.to_owned(), value)]);
-    vary(base, known, &changes).map_err(|faults| format!("{faults:?}"))
+    let varied = vary(base, known, &changes).map(|(_, resolved)| resolved);
+    varied.map_err(|faults| format!("{faults:?}"))
 }
 
 #[test]

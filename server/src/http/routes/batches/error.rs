@@ -22,6 +22,9 @@ pub(crate) enum BatchError {
     /// A job of the batch has not ended.
     #[error("{0} has jobs that have not ended; cancel it first")]
     Active(BatchId),
+    /// All jobs of the batch were deleted.
+    #[error("the jobs of {0} were deleted, and with them its specification")]
+    Empty(BatchId),
     /// No number of jobs.
     #[error("a part has 1 to {MOST_JOBS} jobs, not {0}")]
     Limit(u32),
@@ -38,6 +41,7 @@ impl RouteError for BatchError {
                 Kind::Sweep => ProblemType::SWEEP_ACTIVE,
                 Kind::AccuracyStudy => ProblemType::STUDY_ACTIVE,
             },
+            Self::Empty(_) => ProblemType::NO_SUCH_RESULT,
             Self::Limit(_) => ProblemType::INVALID_QUERY,
         }
     }

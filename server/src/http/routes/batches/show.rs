@@ -231,6 +231,7 @@ mod tests {
         let plan = plan.expect("an evaluation plan");
         let other = NewBatch {
             name: None,
+            base: "{}".to_owned(),
             jobs: Vec::new(),
             expansion: None,
             plan: Some(plan.replacen(r#""format":1"#, r#""format":2"#, 1)),

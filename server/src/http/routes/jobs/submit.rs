@@ -99,7 +99,7 @@ pub(crate) async fn submit(
 ) -> Result<Response, ProblemResponse> {
     let options = query.options()?;
     let key = idempotency_key(&headers, format_args!("{options:?}"), &body)?;
-    let (resolved, estimate) = resolve(body).await?;
+    let (resolved, estimate) = resolve(body.clone()).await?;
     limits::check(&estimate)?;
     let machine = app.machine.get();
     let plan = estimate.plan(&resolved, machine);
@@ -114,6 +114,7 @@ pub(crate) async fn submit(
         return Ok(Json(document).into_response());
     }
     let new = NewJob {
+        sent: spec::text(&body),
         spec,
         plan,
         options,
