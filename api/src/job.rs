@@ -7,7 +7,7 @@ use utoipa::ToSchema;
 use uuid::Uuid;
 
 use crate::enum_value::string_enum;
-pub use crate::outcome::{Outcome, Phase};
+pub use crate::outcome::{Outcome, Phase, Stage};
 use crate::plan::Plan;
 use crate::results::Summary;
 use crate::spec::Spec;
@@ -47,7 +47,13 @@ pub struct RetriedJobs {
 pub struct Progress {
     /// Current phase; absent before the start.
     pub phase: Option<Phase>,
-    /// Physical cycles completed.
+    /// Current stage; absent before the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stage: Option<Stage>,
+    /// Why the run has begun again at cycle 0: of the stage `refined` the errors of the first run. Absent of a run that has not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// Physical cycles completed, since the run began again if it did.
     pub cycle: u64,
     /// Physical cycles requested.
     pub cycles: u64,

@@ -29,6 +29,20 @@ string_enum! {
 }
 
 string_enum! {
+    /// Stages of a solve.
+    Stage {
+        /// Meshes and operators of the unworn bodies.
+        Meshing = "meshing",
+        /// The run with the settings of the tolerance.
+        Solving = "solving",
+        /// Coarse companions of the run, which its error is estimated by.
+        Companions = "companions",
+        /// A finer run from cycle 0, because the error of the first one exceeds the tolerance.
+        Refined = "refined",
+    }
+}
+
+string_enum! {
     /// Phases of a solve.
     Phase {
         /// Geometry and meshes.

@@ -258,4 +258,8 @@ impl Observer for Recorder<'_> {
         self.watch.enter(phase);
         self.emit(Line::Phase(phase));
     }
+
+    fn on_refined(&mut self, errors: &str) {
+        self.emit(Line::Refined(errors.to_owned()));
+    }
 }

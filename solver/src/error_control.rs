@@ -223,9 +223,14 @@ impl<'scope, 'env> Runs<'scope, 'env> {
         if self.earlier.runs.len() > 1 + companions::count(self.scene) {
             return NEXT;
         }
-        let refinement = self.first_errors().map_or(Refinement::NONE, |errors| {
+        let errors = self.first_errors();
+        let refinement = errors.map_or(Refinement::NONE, |errors| {
             balance::finer(self.scene, &errors)
         });
+        let tolerance = self.scene.accuracy.tolerance;
+        let excess = errors.iter().flat_map(|errors| excess(errors, tolerance));
+        let excess: Vec<_> = excess.map(|(_, text)| text).collect();
+        self.observer.on_refined(&excess.join("; "));
         match self.solve(&companions::refined(self.scene, refinement)) {
             Ok(mut done) => {
                 if done.outcome != Outcome::Stopped {
@@ -298,7 +303,17 @@ fn state_errors(done: &mut Summary, errors: Option<Errors>, tolerance: f64) {
             .push("errors are not estimated: a coarse companion has no solution".to_owned());
         return;
     };
-    for quantity in errors.outside(tolerance) {
+    for (quantity, text) in excess(&errors, tolerance) {
+        done.warnings.push(text);
+        if balance::is_decisive(quantity) && done.outcome == Outcome::Completed {
+            done.outcome = Outcome::OutsideTolerance;
+        }
+    }
+}
+
+/// The errors outside of the tolerance, in words.
+fn excess(errors: &Errors, tolerance: f64) -> impl Iterator<Item = (Quantity, String)> {
+    errors.outside(tolerance).map(move |quantity| {
         let name = match quantity {
             Quantity::WornDepth => "worn depth",
             Quantity::ScarHalfWidth => "scar width",
@@ -308,13 +323,11 @@ fn state_errors(done: &mut Summary, errors: Option<Errors>, tolerance: f64) {
         };
         let error = errors.parts(quantity).relative;
         let allowed = quantity.allowed(tolerance);
-        done.warnings.push(format!(
+        let text = format!(
             "the estimated error of the {name} is {:.2} %, the tolerance allows {:.2} %",
             100.0 * error,
             100.0 * allowed
-        ));
-        if balance::is_decisive(quantity) && done.outcome == Outcome::Completed {
-            done.outcome = Outcome::OutsideTolerance;
-        }
-    }
+        );
+        (quantity, text)
+    })
 }

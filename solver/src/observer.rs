@@ -13,6 +13,9 @@ pub trait Observer {
 
     /// Another phase of the work begins.
     fn on_phase(&mut self, _phase: Phase) {}
+
+    /// The finer run begins at cycle 0 or is resumed, because the first run has these errors.
+    fn on_refined(&mut self, _errors: &str) {}
 }
 
 /// What happened.

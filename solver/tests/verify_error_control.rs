@@ -107,6 +107,8 @@ pub(crate) struct Delivered {
     pub(crate) recorder: Recorder,
     pub(crate) checkpoints: Vec<Checkpoint>,
     pub(crate) restarts: Vec<String>,
+    /// Errors that finer runs were begun or resumed for.
+    pub(crate) refined: Vec<String>,
 }
 
 impl Observer for Delivered {
@@ -117,6 +119,10 @@ impl Observer for Delivered {
             Event::Cycle(_) | Event::Snapshot(_) => {}
         }
         self.recorder.on(event)
+    }
+
+    fn on_refined(&mut self, errors: &str) {
+        self.refined.push(errors.to_owned());
     }
 }
 
@@ -136,6 +142,11 @@ fn a_run_outside_its_tolerance_restarts_and_ends_within() {
         "{:?}",
         delivered.restarts
     );
+    assert_eq!(delivered.refined, delivered.restarts);
+    let last = delivered.checkpoints.pop().expect("of the finer run");
+    let mut resumed = Delivered::default();
+    error_control::resume(&scene, last, &mut resumed).expect("resumes");
+    assert_eq!(resumed.refined, delivered.refined, "said again");
     assert_eq!(summary.outcome, Outcome::Completed);
     let errors = summary.errors.expect("they are estimated");
     assert!(errors.worn_depth.relative <= TOLERANCE && errors.worn_area.relative <= TOLERANCE);

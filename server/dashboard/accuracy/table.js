@@ -3,7 +3,7 @@
 import { link } from "../parts/address.js";
 import { card, element } from "../parts/element.js";
 import { count, number, percent } from "../parts/format.js";
-import { badge, progress_bar } from "../parts/status.js";
+import { badge, progress_bar, refined } from "../parts/status.js";
 import { ERRORS, error_of } from "./runs.js";
 
 const HEAD = ["run", "status", "on the front", "element, µm", "increments a cycle", "jump, cycles", "sections", ...ERRORS.slice(1).map(([, title]) => `error of ${title}`), "processor time, s", "memory, MiB"];
@@ -47,7 +47,7 @@ export class RunsTable {
 
   /** @param {import("./runs.js").Run} run whose status has changed */
   update({ id, status, outcome, progress, compared }) {
-    const running = status === "running" && progress ? [" ", progress_bar(progress.fraction, "progress"), ` ${percent(progress.fraction)}`] : [];
+    const running = status === "running" && progress ? [" ", progress_bar(progress.fraction, "progress"), ` ${refined(progress)}${percent(progress.fraction)}`] : [];
     const failure = compared?.failure ? element("div", { class: "reason", title: compared.failure }, compared.failure) : null;
     this.#statuses.get(id)?.replaceChildren(element("span", { class: "nowrap" }, badge({ status, outcome }), ...running), failure ?? "");
   }

@@ -53,14 +53,17 @@ export class Head {
   #show(progress) {
     const job = this.#job;
     const ended = has_ended(job);
-    const { phase, cycle, cycles, fraction, eta_s } = progress;
+    const { phase, stage, reason, cycle, cycles, fraction, eta_s } = progress;
+    const is_refined = stage === "refined";
     const running = ended ? [] : [
-      progress_bar(fraction, "progress"),
-      element("span", {}, `${percent(fraction)} · cycle ${count(cycle)} of ${count(cycles)}${phase ? ` · ${words(phase)}` : ""}${eta_s == null ? "" : ` · ${duration(eta_s)} left`}`),
+      is_refined && progress_bar(1, "progress of the first run"),
+      progress_bar(fraction, is_refined ? "progress of the finer run" : "progress"),
+      element("span", {}, `${is_refined ? "refined · " : ""}${percent(fraction)} · cycle ${count(cycle)} of ${count(cycles)}${phase ? ` · ${words(phase)}` : ""}${eta_s == null ? "" : ` · ${duration(eta_s)} left`}`),
     ];
     const taken = job.started_at && job.finished_at ? duration(seconds_between(job.started_at, job.finished_at)) : null;
     this.#status.replaceChildren(
       element("p", { class: "line" }, badge(job), ...running, job.status === "succeeded" ? "" : element("span", {}, job.status_reason ?? "")),
+      reason && !ended ? element("p", { class: "again" }, is_refined ? `Solved again, finer: ${reason}.` : `Begun again at cycle 0: ${reason}.`) : "",
       definitions([
         ["submitted", time(job.created_at)], ["started", time(job.started_at)], ["ended", time(job.finished_at)],
         ["duration", taken], ["attempts", String(job.attempts)],

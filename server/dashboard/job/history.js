@@ -2,10 +2,13 @@
 
 import { Chart } from "../charts/chart.js";
 import { fetch_json } from "../parts/client.js";
+import { has_ended } from "../parts/status.js";
 
 /** Rows that are drawn at most; the service keeps the extremes of every column. */
 const MOST_POINTS = 1000;
 const UM = 1e3;
+/** Colour of the curves of the first run beside those of a finer one. */
+const FIRST_RUN_COLOUR = 7;
 
 /**
  * @typedef {object} Drawn
@@ -151,9 +154,23 @@ function rates(cycles, sums) {
   return sums.slice(1).map((sum, index) => (sum - sums[index]) / Math.max(cycles[index + 1] - cycles[index], 1));
 }
 
+/**
+ * A curve of the coarser run before this one.
+ * @param {import("../charts/chart.js").Series} series
+ * @returns {import("../charts/chart.js").Series}
+ */
+function of_first_run(series) {
+  return { ...series, name: `${series.name}, first run`, dash: "dash", opacity: 0.6, colour: FIRST_RUN_COLOUR };
+}
+
 /** The charts of a history; those without values are not shown. */
 export class HistoryCharts {
   #charts;
+  /** What was loaded last, and of the first run if a finer one has begun. @type {any} */
+  #loaded = null;
+  /** @type {any} */
+  #first_run = null;
+  #is_finer = false;
 
   /**
    * @param {any} state of the axes
@@ -165,6 +182,13 @@ export class HistoryCharts {
     for (const node of this.nodes) node.hidden = true;
   }
 
+  /** A finer run has begun: what was loaded of the first one stays beside it. */
+  first_run_ends() {
+    if (this.#is_finer) return;
+    this.#is_finer = true;
+    this.#first_run = this.#loaded;
+  }
+
   /**
    * Loads what there is so far.
    * @param {any} job
@@ -173,8 +197,11 @@ export class HistoryCharts {
   async load(job, signal) {
     const history = await fetch_json(`${job.links.wear_history}?max_points=${MOST_POINTS}`, { signal });
     if (history.cycle.length < 2) return;
+    this.#loaded = history;
+    // The whole run is drawn alone once it has ended.
+    const first_run = has_ended(job) ? null : this.#first_run;
     await Promise.all(this.#charts.map(({ drawn, chart }) => {
-      const series = drawn.series(history, job);
+      const series = [...drawn.series(history, job), ...(first_run ? drawn.series(first_run, job).map(of_first_run) : [])];
       chart.node.hidden = series.length === 0;
       if (series.length === 0) return null;
       return chart.show({

@@ -55,10 +55,15 @@ export async function job_page(content, { id }, signal) {
     head.update(job);
     await Promise.all([show_history(), has_ended(job) ? show_end() : null]);
   };
+  // The curves of the first run are not stored.
+  if (job.progress.stage === "refined") history.first_run_ends();
   await show();
   if (!has_ended(job))
     live(id ?? "", signal, {
-      progress: (progress) => head.progress(progress),
+      progress: (progress) => {
+        if (progress.stage === "refined") history.first_run_ends();
+        head.progress(progress);
+      },
       cycle: throttled(() => show_history(), HISTORY_MS, signal),
       done: async () => {
         job = await fetch_json(`/v1/jobs/${id}`, { signal });

@@ -3,7 +3,7 @@
 import { link } from "../parts/address.js";
 import { element } from "../parts/element.js";
 import { count, duration, length, percent, seconds_between, time, words } from "../parts/format.js";
-import { badge, has_ended, progress_bar } from "../parts/status.js";
+import { badge, has_ended, progress_bar, refined } from "../parts/status.js";
 import { sparkline } from "./sparkline.js";
 
 const NUMBERS = ["left", "depth", "life", "duration", "age"];
@@ -44,7 +44,7 @@ export class Row {
     status.replaceChildren(badge(job), reason ? element("div", { class: "reason", title: job.status_reason }, job.status_reason) : "");
     progress.replaceChildren(...(has_ended(job)
       ? [`${count(cycle)} cycles`]
-      : [progress_bar(fraction, `progress of ${job.name ?? job.id}`), element("div", { class: "muted" }, `${percent(fraction)}, cycle ${count(cycle)} of ${count(cycles)}`)]));
+      : [progress_bar(fraction, `progress of ${job.name ?? job.id}`), element("div", { class: "muted" }, `${refined(job.progress)}${percent(fraction)}, cycle ${count(cycle)} of ${count(cycles)}`)]));
     left.textContent = has_ended(job) ? "" : duration(eta_s);
     const figures = job.key_figures;
     if (figures) this.#depth.textContent = length(Math.max(figures.receptacle_max_depth_mm, figures.slider_max_depth_mm));

@@ -25,6 +25,15 @@ export function badge({ status, outcome }) {
 }
 
 /**
+ * The stage of a run that was refined, in a word; empty of others.
+ * @param {any} progress
+ * @returns {string}
+ */
+export function refined(progress) {
+  return progress?.stage === "refined" ? "refined, " : "";
+}
+
+/**
  * A bar of progress.
  * @param {number} fraction
  * @param {string} label

@@ -4,7 +4,7 @@ import { link } from "../parts/address.js";
 import { card, element } from "../parts/element.js";
 import { number, percent } from "../parts/format.js";
 import { as_text, heading } from "../parts/quantity.js";
-import { badge, progress_bar } from "../parts/status.js";
+import { badge, progress_bar, refined } from "../parts/status.js";
 import { fields_of } from "./points.js";
 import { present, title_of, value_of } from "./quantities.js";
 
@@ -56,7 +56,7 @@ export class PointsTable {
   /** @param {import("./points.js").Point} point whose status has changed */
   update(point) {
     const { status, progress } = point;
-    const running = status === "running" && progress ? [" ", progress_bar(progress.fraction, "progress"), ` ${percent(progress.fraction)}`] : [];
+    const running = status === "running" && progress ? [" ", progress_bar(progress.fraction, "progress"), ` ${refined(progress)}${percent(progress.fraction)}`] : [];
     this.#rows.get(point.id)?.status.replaceChildren(element("span", { class: "nowrap" }, badge(point), ...running));
   }
 }

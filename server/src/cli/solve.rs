@@ -115,6 +115,7 @@ fn record(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
         }
         Line::Ready
         | Line::File(_)
+        | Line::Refined(_)
         | Line::Checkpoint(_)
         | Line::Summary(_)
         | Line::Failed(_)

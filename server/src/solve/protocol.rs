@@ -45,6 +45,8 @@ pub enum Line {
     /// The run restarts at cycle 0, with the cause: it cannot resume from its checkpoint, or its estimated error
     /// exceeds the tolerance. Earlier lines are discarded.
     Restarted(String),
+    /// The run that follows is the finer one, from cycle 0 or a checkpoint; with the errors of the first one.
+    Refined(String),
     /// A checkpoint, sent after all lines up to its cycle.
     Checkpoint(EncodedCheckpoint),
     /// The result of the run.

@@ -85,7 +85,7 @@ async fn stored<'a, E: Employer>(
         }
     }
     tracing::warn!("its checkpoint is missing or damaged; the run starts at cycle 0");
-    let number = buffer.restart();
+    let number = buffer.restart("its checkpoint is missing or damaged".to_owned());
     Ok(match retry(|| employer.restart(lease, number)).await? {
         LeaseState::Held { .. } => Start::From(None),
         LeaseState::Lost => Start::LeaseLost,

@@ -244,8 +244,8 @@ impl<E: Employer> Supervision<'_, E> {
         let lease = self.attempt.lease();
         match write {
             Write::Restart(cause) => {
-                tracing::warn!(cause, "the run restarts at cycle 0");
-                let number = self.buffer.restart();
+                tracing::warn!(%cause, "the run restarts at cycle 0");
+                let number = self.buffer.restart(cause);
                 retry(|| employer.restart(lease, number)).await
             }
             Write::Update if self.buffer.is_dirty() => {

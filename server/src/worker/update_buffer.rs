@@ -5,7 +5,7 @@
 
 use std::time::{Duration, Instant};
 
-use api::job::{Phase, Progress};
+use api::job::{Phase, Progress, Stage};
 use jiff::Timestamp;
 use solver::record::CycleReport;
 
@@ -73,13 +73,14 @@ impl UpdateBuffer {
         }
     }
 
-    /// Discards everything, also what could not be recorded; the run starts at cycle 0. Returns the number of this write.
-    pub(super) fn restart(&mut self) -> i64 {
+    /// Discards everything, also what could not be recorded; the run starts at cycle 0, for this reason. Returns the number of this write.
+    pub(super) fn restart(&mut self, reason: String) -> i64 {
         let number = self.next_number();
         *self = Self {
             number,
             ..Self::new(self.progress.cycles, 0)
         };
+        self.progress.reason = Some(reason);
         number
     }
 
@@ -94,7 +95,14 @@ impl UpdateBuffer {
         self.bytes = self.bytes.saturating_add(bytes);
         self.progress.updated_at = Some(Timestamp::now().to_string());
         match line {
-            Line::Phase(phase) => self.progress.phase = Some(phase),
+            Line::Phase(phase) => {
+                self.progress.phase = Some(phase);
+                self.progress.stage = Some(stage(self.progress.stage, phase));
+            }
+            Line::Refined(errors) => {
+                self.progress.stage = Some(Stage::Refined);
+                self.progress.reason = Some(errors);
+            }
             Line::Cycle(row) => {
                 self.progress.cycle = row.cycle;
                 self.progress.fraction = fraction(row.cycle, self.progress.cycles);
@@ -207,6 +215,16 @@ impl UpdateBuffer {
         let done = self.progress.fraction;
         let done_here = done - fraction(self.from_cycle, self.progress.cycles);
         (done_here > 0.0).then(|| self.started.elapsed().as_secs_f64() * (1.0 - done) / done_here)
+    }
+}
+
+/// The stage in a phase. Meshes are made again while a run is solved, and every phase of the finer run is part of its stage.
+fn stage(present: Option<Stage>, phase: Phase) -> Stage {
+    match (present, phase) {
+        (Some(Stage::Refined), _) => Stage::Refined,
+        (_, Phase::Companions) => Stage::Companions,
+        (None | Some(Stage::Meshing), Phase::Mesh | Phase::Condense) => Stage::Meshing,
+        _ => Stage::Solving,
     }
 }
 

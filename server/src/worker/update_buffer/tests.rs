@@ -62,7 +62,7 @@ fn an_update_that_was_not_recorded_is_repeated_as_it_is() {
     let names: Vec<_> = last.events.iter().map(|event| event.0).collect();
     assert_eq!(names, [EventName::Progress, EventName::Cycle]);
     assert!(!buffer.is_dirty());
-    assert_eq!(buffer.restart(), 3);
+    assert_eq!(buffer.restart("because".to_owned()), 3);
     buffer.push(row(1), 100);
     assert_eq!(buffer.take().number, 4);
 }
@@ -135,4 +135,51 @@ fn long_lines_fill_the_buffer_before_many_rows_do() {
     assert!(!buffer.is_full());
     buffer.put_back(failed);
     assert!(buffer.is_full());
+}
+
+#[test]
+fn a_finer_run_is_a_stage_of_its_own_with_the_errors_of_the_first_one() {
+    let mut buffer = UpdateBuffer::new(100, 0);
+    let mut stages = Vec::new();
+    let mut push = |buffer: &mut UpdateBuffer, line: Line| {
+        buffer.push(line, 100);
+        let progress = buffer.take().progress;
+        stages.extend(progress.stage.filter(|stage| stages.last() != Some(stage)));
+        progress
+    };
+    for phase in [Phase::Mesh, Phase::Condense, Phase::Cycles] {
+        assert_eq!(push(&mut buffer, Line::Phase(phase)).reason, None);
+    }
+    push(&mut buffer, row(37));
+    push(&mut buffer, Line::Phase(Phase::Condense));
+    push(&mut buffer, Line::Phase(Phase::Companions));
+    buffer.restart("the error is 8 %".to_owned());
+    let errors = "the error is 8 %, 2 % are allowed";
+    push(&mut buffer, Line::Refined(errors.to_owned()));
+    push(&mut buffer, Line::Phase(Phase::Mesh));
+    let refined = push(&mut buffer, row(1));
+    assert_eq!(refined.reason.as_deref(), Some(errors));
+    assert_eq!((refined.cycle, refined.fraction), (1, 0.01));
+    let expected = [
+        Stage::Meshing,
+        Stage::Solving,
+        Stage::Companions,
+        Stage::Refined,
+    ];
+    assert_eq!(stages, expected);
+}
+
+#[test]
+fn a_run_that_begins_again_says_why_and_announces_it_at_once() {
+    let mut buffer = UpdateBuffer::new(100, 0);
+    buffer.push(row(50), 100);
+    assert_eq!(buffer.take().events.len(), 2);
+    buffer.restart("the finer run has no solution".to_owned());
+    buffer.push(Line::Phase(Phase::Mesh), 100);
+    let update = buffer.take();
+    let reason = update.progress.reason.as_deref();
+    assert_eq!(reason, Some("the finer run has no solution"));
+    let (name, data) = &update.events[0];
+    assert_eq!(*name, EventName::Progress);
+    assert!(data.contains("no solution"), "{data}");
 }
