@@ -41,11 +41,22 @@ export async function send(path, options = {}) {
  * @returns {Promise<any>}
  */
 export async function fetch_json(path, options) {
+  return (await fetch_answer(path, options)).body;
+}
+
+/**
+ * The same with the headers of the answer.
+ * @param {string} path
+ * @param {RequestInit} [options]
+ * @returns {Promise<{body: any, headers: Headers}>}
+ */
+export async function fetch_answer(path, options) {
   const response = await send(path, options);
-  if (response.status === 204) return null;
+  const { headers } = response;
+  if (response.status === 204) return { body: null, headers };
   const body = await response.json().catch(() => null);
   if (!response.ok) throw new Problem(body?.detail ?? body?.title ?? `${path}: ${response.status}`, response.status, body?.faults);
-  return body;
+  return { body, headers };
 }
 
 /**

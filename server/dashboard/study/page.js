@@ -4,12 +4,15 @@ import { fetch_json, post_json, Problem } from "../parts/client.js";
 import { card, element } from "../parts/element.js";
 import { words } from "../parts/format.js";
 import { throttled } from "../parts/throttled.js";
-import { cloned_batch } from "./clone.js";
+import { cloned_batch, cloned_job } from "./clone.js";
 import { drawing } from "./drawing.js";
 import { Fields } from "./fields.js";
 import { faults_list, plan_cards } from "./plan.js";
 import { Shape } from "./schema.js";
 import { Submission } from "./submission.js";
+
+/** What is said of a clone that is not as it was sent. */
+const RESOLVED_ONLY = "An earlier version has queued this, which did not store what was sent: every value counts as given here, the defaults too.";
 
 /** Pause after a key before the plan is asked for, ms. */
 const TYPING_MS = 300;
@@ -21,7 +24,7 @@ export async function study_page(content, { values }, signal) {
   const from = values.get("from");
   const batch = values.get("batch");
   const copied = batch ? await cloned_batch(batch, values.get("as"), signal) : null;
-  const start = copied ? copied.base : from ? cloned(await fetch_json(`/v1/jobs/${from}`, { signal })) : { system: { kind: values.get("system") ?? systems[0].kind } };
+  const start = copied ?? (from ? await cloned_job(from, signal) : { spec: { system: { kind: values.get("system") ?? systems[0].kind } }, is_as_sent: true });
 
   const system = /** @type {HTMLSelectElement} */ (element("select", { id: "system" }, ...systems.map((/** @type {any} */ { kind }) => element("option", { value: kind }, words(kind)))));
   const text = /** @type {HTMLTextAreaElement} */ (element("textarea", { spellcheck: "false", "aria-label": "specification as JSON", rows: 14 }));
@@ -87,18 +90,10 @@ export async function study_page(content, { values }, signal) {
   system.addEventListener("change", () => write({ system: { kind: system.value } }));
 
   content.append(element("h1", {}, "New study"),
+    element("p", { class: "muted", hidden: start.is_as_sent }, RESOLVED_ONLY),
     element("p", { class: "line" }, element("label", { for: "system" }, "System "), system, ...submission.controls), faults, submission.forms,
     element("div", { class: "study" }, card("Fields", fields.node), element("div", {}, card("To scale", scene),
       card("Specification as JSON", text, element("details", {}, element("summary", {}, "as a command"), submission.request)), plan)));
-  text.value = JSON.stringify(start, null, 2);
+  text.value = JSON.stringify(start.spec, null, 2);
   await show_plan();
-}
-
-/**
- * The specification of a job, without where its values are from.
- * @param {any} job
- * @returns {any}
- */
-function cloned({ spec: { provenance: _, ...spec } }) {
-  return { ...spec, name: `${spec.name ?? words(spec.system.kind)}, changed` };
 }
