@@ -6,6 +6,7 @@ import { compare_page } from "./compare/page.js";
 import { job_page } from "./job/page.js";
 import { jobs_page } from "./jobs/page.js";
 import { address } from "./parts/address.js";
+import { reached_again, Unreachable } from "./parts/connection.js";
 import { study_page } from "./study/page.js";
 import { sweep_page } from "./sweep/page.js";
 import { workers_page } from "./workers/page.js";
@@ -46,14 +47,30 @@ async function open_page() {
     const changed = await page(content, asked, end.signal);
     if (!end.signal.aborted) present.changed = changed;
   } catch (error) {
-    if (!end.signal.aborted) show_message(error instanceof Error ? error.message : String(error));
+    if (end.signal.aborted) return;
+    if (error instanceof Unreachable) open_again(end.signal);
+    else show_message(error instanceof Error ? error.message : String(error));
   } finally {
     if (!end.signal.aborted) content.removeAttribute("aria-busy");
   }
 }
 
+/**
+ * Opens a page that could not be opened once the service is reached again.
+ * @param {AbortSignal} signal
+ */
+async function open_again(signal) {
+  await reached_again(signal);
+  if (signal.aborted) return;
+  present.key = "";
+  open_page();
+}
+
 addEventListener("hashchange", open_page);
-addEventListener("unhandledrejection", ({ reason }) => {
-  if (reason?.name !== "AbortError") show_message(reason?.message ?? String(reason));
+addEventListener("unhandledrejection", (event) => {
+  const { reason } = event;
+  // Said beside the pages, until it is reached again.
+  if (reason instanceof Unreachable) event.preventDefault();
+  else if (reason?.name !== "AbortError") show_message(reason?.message ?? String(reason));
 });
 open_page();

@@ -4,9 +4,12 @@
 mod accessibility;
 mod accuracy;
 mod comparison;
+mod draft;
 mod interface;
 mod job;
 mod jobs;
+mod motion;
+mod outage;
 mod pages_cost;
 mod pictures;
 mod study;

@@ -120,6 +120,15 @@ impl Browser {
         self.wait_for(&expression).await;
     }
 
+    /// Runs a script on the page.
+    ///
+    /// # Panics
+    /// If it fails.
+    pub async fn run(&self, script: &str) {
+        let done = self.client.execute(script, Vec::new()).await;
+        done.unwrap_or_else(|error| panic!("{script}: {error}"));
+    }
+
     /// Clicks on an element.
     ///
     /// # Panics
@@ -176,6 +185,23 @@ impl Browser {
             .await;
         let media = json!({"features": [{"name": "prefers-color-scheme", "value": colours}]});
         self.command("Emulation.setEmulatedMedia", media).await;
+    }
+
+    /// Lets new requests of the page fail as without a network, or succeed again.
+    ///
+    /// # Panics
+    /// If the browser refuses.
+    pub async fn cut_off(&self, is_cut_off: bool) {
+        // Bytes a second, beyond those of a network on this machine.
+        let throughput = if is_cut_off { 0 } else { 1_000_000_000 };
+        let conditions = json!({"offline": is_cut_off, "latency": 0, "download_throughput": throughput, "upload_throughput": throughput});
+        let answer = self
+            .post(
+                "chromium/network_conditions",
+                &json!({"network_conditions": conditions}),
+            )
+            .await;
+        assert!(answer["value"].is_null(), "{answer}");
     }
 
     /// Bytes of objects in the page's memory after those without a use are removed.

@@ -3,7 +3,9 @@
 import { plotly } from "../charts/library.js";
 import { choices } from "../parts/address.js";
 import { events, fetch_json } from "../parts/client.js";
+import { reached_again, when_reached_again } from "../parts/connection.js";
 import { element } from "../parts/element.js";
+import { motion_card } from "../parts/motion.js";
 import { has_ended } from "../parts/status.js";
 import { throttled } from "../parts/throttled.js";
 import { checks_card, cost_card, errors_card } from "./accuracy.js";
@@ -38,7 +40,7 @@ export async function job_page(content, { id }, signal) {
   const results = element("div", { class: "cards" });
   const details = element("div", { class: "cards" });
   const charts = element("div", { class: "charts" });
-  content.append(head.node, results, charts, details, element("div", { class: "cards" }, effects_card(job), specification_card(job)));
+  content.append(head.node, results, charts, details, element("div", { class: "cards" }, motion_card(job.plan ?? {}) ?? "", effects_card(job), specification_card(job)));
   charts.append(...history.nodes, snapshots.node, fields.node, maps.node);
 
   const show_history = async () => {
@@ -55,9 +57,15 @@ export async function job_page(content, { id }, signal) {
     head.update(job);
     await Promise.all([show_history(), has_ended(job) ? show_end() : null]);
   };
+  const refresh = async () => {
+    job = await fetch_json(`/v1/jobs/${id}`, { signal });
+    await show();
+  };
   // The curves of the first run are not stored.
   if (job.progress.stage === "refined") history.first_run_ends();
   await show();
+  // What is stored of a job that has ended, too, may not have arrived.
+  when_reached_again(refresh, signal);
   if (!has_ended(job))
     live(id ?? "", signal, {
       progress: (progress) => {
@@ -65,10 +73,7 @@ export async function job_page(content, { id }, signal) {
         head.progress(progress);
       },
       cycle: throttled(() => show_history(), HISTORY_MS, signal),
-      done: async () => {
-        job = await fetch_json(`/v1/jobs/${id}`, { signal });
-        await show();
-      },
+      done: refresh,
     });
   return () => {
     snapshots.follow_address();
@@ -106,6 +111,6 @@ async function live(id, signal, listener) {
     } catch {
       // The service is away; the next attempt finds it or not.
     }
-    await new Promise((resolve) => setTimeout(resolve, RETRY_MS));
+    await Promise.all([new Promise((resolve) => setTimeout(resolve, RETRY_MS)), reached_again(signal)]);
   }
 }

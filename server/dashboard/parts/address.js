@@ -45,7 +45,7 @@ export function changed(changes) {
  * @param {{in_place?: boolean}} [how]
  */
 export function change(changes, { in_place = false } = {}) {
-  if (in_place) history.replaceState(null, "", changed(changes));
+  if (in_place) history.replaceState(history.state, "", changed(changes));
   else location.hash = changed(changes);
 }
 

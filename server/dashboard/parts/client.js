@@ -1,5 +1,6 @@
 // Requests to the interface of the service, with the access token where it needs one.
 
+import { request } from "./connection.js";
 import { ask_for_token } from "./token.js";
 
 /** A problem document (RFC 9457) as an error. */
@@ -17,7 +18,7 @@ export class Problem extends Error {
 }
 
 /**
- * Sends a request. Without a valid token the reader is asked for one, once until the page is used again.
+ * Sends a request; without an answer of the service it is [`Unreachable`]. Without a valid token the reader is asked for one, once until the page is used again.
  * @param {string} path
  * @param {RequestInit} [options]
  * @returns {Promise<Response>}
@@ -27,7 +28,7 @@ export async function send(path, options = {}) {
     const token = sessionStorage.getItem("token");
     const headers = new Headers(options.headers);
     if (token) headers.set("authorization", `Bearer ${token}`);
-    return fetch(path, { ...options, headers });
+    return request(path, { ...options, headers });
   };
   const response = await attempt();
   if (response.status !== 401 || !(await ask_for_token())) return response;
@@ -83,7 +84,8 @@ export async function* events(path, signal, after = null) {
   const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
   let text = "";
   for (;;) {
-    const { value, done } = await reader.read();
+    // A broken stream ends: what follows is asked for with the next one.
+    const { value, done } = await reader.read().catch(() => ({ value: "", done: true }));
     if (done) return;
     const blocks = (text + value).split("\n\n");
     text = blocks.pop() ?? "";

@@ -1,6 +1,7 @@
 // Changes of all jobs, from one stream.
 
 import { events, Problem } from "./client.js";
+import { reached_again, show_connection, when_reached_again } from "./connection.js";
 
 /** Time between attempts to connect again, ms. */
 const RETRY_MS = 2000;
@@ -12,12 +13,6 @@ const RETRY_MS = 2000;
  * @property {() => void} reset where changes were missed: what is shown must be loaded again
  * @property {() => void} [started] once changes are received, all those after this moment
  */
-
-/** @param {string} text */
-function show_connection(text) {
-  const node = document.getElementById("connection");
-  if (node) node.textContent = text;
-}
 
 /**
  * @param {number} ms
@@ -36,12 +31,13 @@ function pause(ms, signal) {
  * @param {AbortSignal} signal
  */
 export async function follow(listener, signal) {
+  // Loads may have failed in between.
+  when_reached_again(listener.reset, signal);
   /** @type {string | null} */
   let last = null;
   while (!signal.aborted) {
     try {
       for await (const { name, id, data } of events("/v1/events", signal, last)) {
-        show_connection("");
         last = id ?? last;
         if (name === "job") listener.changed(data);
         else if (name === "deleted") listener.deleted(data.id);
@@ -53,7 +49,6 @@ export async function follow(listener, signal) {
       if (error instanceof Problem && error.status === 401) return show_connection("no access");
     }
     if (signal.aborted) return;
-    show_connection("connecting again …");
-    await pause(RETRY_MS, signal);
+    await Promise.all([pause(RETRY_MS, signal), reached_again(signal)]);
   }
 }

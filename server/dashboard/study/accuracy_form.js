@@ -26,6 +26,16 @@ export class AccuracyForm {
     return this.#budget.value.trim() === "" ? NaN : Number(this.#budget.value);
   }
 
+  /** What is typed. */
+  get state() {
+    return this.#budget.value;
+  }
+
+  /** @param {string} typed */
+  restore(typed) {
+    this.#budget.value = typed;
+  }
+
   get is_complete() {
     return this.budget_s >= LEAST_S && this.budget_s <= MOST_S;
   }

@@ -1,6 +1,7 @@
 // Slider, receptacle and stroke to scale.
 
 import { length } from "../parts/format.js";
+import { imposed } from "../parts/motion.js";
 
 const NAMESPACE = "http://www.w3.org/2000/svg";
 /** Width and height of the drawing, in its own units. */
@@ -30,14 +31,15 @@ function lengths(system) {
 }
 
 /**
- * A drawing of a resolved specification; nothing where lengths are missing.
+ * A drawing of a resolved specification with its plan; nothing where lengths are missing.
  * @param {any} spec
+ * @param {any} plan
  * @returns {Node[]}
  */
-export function drawing({ system, motion }) {
-  const { radius, block, height } = lengths(system);
+export function drawing(spec, plan) {
+  const { radius, block, height } = lengths(spec.system);
   if (!radius || !block || !height) return [];
-  const amplitude = motion?.amplitude_mm ?? 0;
+  const { amplitude_mm: amplitude, text } = imposed(spec, plan);
   const scale = Math.min((WIDTH - 20) / Math.max(block, 2 * (radius + amplitude)), (HEIGHT - 40) / (radius + height));
   const [middle, surface] = [WIDTH / 2, 20 + radius * scale];
   const [r, half, stroke] = [radius * scale, (block * scale) / 2, amplitude * scale];
@@ -48,6 +50,6 @@ export function drawing({ system, motion }) {
     shape("path", { d: `${arc} Z`, class: "slider" }),
     shape("path", { d: `M ${middle - Math.max(stroke, 0.5)} ${surface + 5} h ${2 * Math.max(stroke, 0.5)}`, class: "stroke" }),
     shape("text", { x: middle, y: surface - r * 0.55, "text-anchor": "middle" }, `R ${length(radius)}`),
-    shape("text", { x: middle, y: surface + height * scale + 15, "text-anchor": "middle" }, `${length(block)} × ${length(height)}, stroke ±${length(amplitude)}`));
+    shape("text", { x: middle, y: surface + height * scale + 15, "text-anchor": "middle" }, `${length(block)} × ${length(height)}, ${text}`));
   return [svg];
 }

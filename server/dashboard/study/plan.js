@@ -3,6 +3,7 @@
 import { effects_table } from "../parts/effects.js";
 import { card, definitions, element, table } from "../parts/element.js";
 import { count, duration, length, number, words } from "../parts/format.js";
+import { motion_card } from "../parts/motion.js";
 
 /**
  * The faults of a refused specification, each with a way to its field.
@@ -21,7 +22,9 @@ export function faults_list({ message, faults }, go) {
  * @param {any} plan
  * @returns {HTMLElement[]}
  */
-export function plan_cards({ estimates, effects, warnings = [], notes = [], life = [] }) {
+export function plan_cards(plan) {
+  const { estimates, effects, warnings = [], notes = [], life = [] } = plan;
+  const slip = motion_card(plan);
   const lives = life.map((/** @type {any} */ one) => [words(one.criterion?.kind ?? ""), one.side ?? "", count(one.cycles)]).filter((/** @type {string[]} */ row) => row[2] !== "");
   return [
     card("Expected", definitions([
@@ -30,6 +33,7 @@ export function plan_cards({ estimates, effects, warnings = [], notes = [], life
       ["unworn contact", `${length(estimates.hertz_half_width_mm)} to either side, ${number(estimates.hertz_peak_pressure_mpa)} MPa at most`],
       ["element of the contact", length(estimates.contact_element_mm)],
     ]), ...(lives.length ? [table({ head: ["life by", "side", "about, cycles"], rows: lives, numbers: [2] })] : [])),
+    ...(slip ? [slip] : []),
     ...(warnings.length || notes.length ? [card("To know", element("ul", {},
       ...warnings.map((/** @type {any} */ { field, detail }) => element("li", {}, element("code", {}, field), " ", detail)),
       ...notes.map((/** @type {any} */ note) => element("li", {}, typeof note === "string" ? note : note.detail ?? ""))))] : []),

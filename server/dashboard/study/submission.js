@@ -19,6 +19,7 @@ export class Submission {
   #expected_s = NaN;
   #signal;
   #refused;
+  #changed = () => {};
   #kind = /** @type {HTMLSelectElement} */ (element("select", { id: "kind", "aria-label": "what is submitted" }, ...Object.entries(KINDS).map(([kind, [name]]) => element("option", { value: kind }, name))));
   #name = /** @type {HTMLInputElement} */ (element("input", { id: "batch-name", type: "text", maxlength: 200, class: "name" }));
   #name_row = element("p", { class: "field" }, element("label", { for: "batch-name" }, "name of all jobs together"), this.#name);
@@ -30,9 +31,10 @@ export class Submission {
   #button = element("button", { type: "button", class: "primary" }, "Submit");
 
   /**
-   * @param {{signal: AbortSignal, cloned: import("./clone.js").Cloned | null, refused: (problem: Problem) => void}} options
+   * @param {{signal: AbortSignal, cloned: import("./clone.js").Cloned | null, typed: any, refused: (problem: Problem) => void, changed: () => void}} options
+   * `typed` is the state of before, if there is one; `changed` is called when it has changed
    */
-  constructor({ signal, cloned, refused }) {
+  constructor({ signal, cloned, typed, refused, changed }) {
     this.#signal = signal;
     this.#refused = refused;
     const asked = choices.get("as") ?? "";
@@ -46,11 +48,21 @@ export class Submission {
     this.controls = [element("label", {}, "submitted as ", this.#kind), this.#button, this.#said];
     this.forms = element("div", { class: "submission" }, this.#sweep.node, this.#accuracy.node);
     this.request = element("details", {}, element("summary", {}, "the request as a command"), this.#curl, this.#body);
-    if (cloned) {
+    if (typed) {
+      this.#sweep.restore(typed.sweep);
+      this.#accuracy.restore(typed.budget);
+      this.#name.value = typed.name;
+    } else if (cloned) {
       this.#sweep.take(cloned);
       this.#name.value = cloned.name;
     }
     this.#show();
+    this.#changed = changed;
+  }
+
+  /** What is typed. */
+  get state() {
+    return { name: this.#name.value, sweep: this.#sweep.state, budget: this.#accuracy.state };
   }
 
   /** @returns {Kind} */
@@ -84,6 +96,7 @@ export class Submission {
   }
 
   #show() {
+    this.#changed();
     this.#said.textContent = "";
     const form = { job: null, sweep: this.#sweep, accuracy: this.#accuracy }[this.kind];
     for (const one of [this.#sweep, this.#accuracy]) one.node.hidden = one !== form;

@@ -44,14 +44,19 @@ export class SweepForm {
 
   #insert() {
     const field = new SweptField(this.#changed, () => {
-      this.#fields = this.#fields.filter((one) => one !== field);
-      field.node.remove();
+      this.#remove(field);
       this.#changed();
     });
     field.offer(this.#offered, this.#shape);
     this.#fields.push(field);
     this.#rows.append(field.node);
     return field;
+  }
+
+  /** @param {SweptField} field */
+  #remove(field) {
+    this.#fields = this.#fields.filter((one) => one !== field);
+    field.node.remove();
   }
 
   /**
@@ -61,6 +66,18 @@ export class SweepForm {
   take({ fields, is_grid }) {
     for (const { pointer, values } of fields) (this.#fields.find((one) => one.pointer === "") ?? this.#insert()).take(pointer, values);
     this.#combined.value = is_grid ? "grid" : "list";
+  }
+
+  /** What is typed. */
+  get state() {
+    return { combined: this.#combined.value, fields: this.#fields.map(({ state }) => state) };
+  }
+
+  /** @param {any} typed */
+  restore({ combined, fields }) {
+    for (const field of [...this.#fields]) this.#remove(field);
+    for (const typed of fields) this.#insert().restore(typed);
+    this.#combined.value = combined;
   }
 
   /**

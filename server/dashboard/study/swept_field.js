@@ -122,6 +122,19 @@ export class SweptField {
     this.#list.value = values.map((value) => (typeof value === "string" ? value : JSON.stringify(value))).join(", ");
   }
 
+  /** What is typed. */
+  get state() {
+    const [list, from, to, count] = [this.#list, this.#from, this.#to, this.#count].map(({ value }) => value);
+    return { pointer: this.pointer, how: this.#how.value, list, from, to, count };
+  }
+
+  /** @param {any} typed */
+  restore({ pointer, how, list, from, to, count }) {
+    this.#place(pointer);
+    this.#how.value = how;
+    for (const [input, value] of /** @type {[HTMLInputElement, string][]} */ ([[this.#list, list], [this.#from, from], [this.#to, to], [this.#count, count]])) input.value = value;
+  }
+
   /** @param {string} pointer */
   #place(pointer) {
     const is_listed = pointer === "" || this.#offered.some((one) => one.pointer === pointer);

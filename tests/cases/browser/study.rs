@@ -5,7 +5,7 @@ use tests::Browser;
 use super::{fits_a_phone, is_sound, service_and_browser};
 
 /// Types a value into a field in place of what it has.
-async fn type_into(browser: &Browser, pointer: &str, value: &str) {
+pub(super) async fn type_into(browser: &Browser, pointer: &str, value: &str) {
     let id = format!("field{}", pointer.replace('/', "-"));
     let script = format!(
         "const field = document.getElementById('{id}'); field.value = '{value}'; field.dispatchEvent(new Event('change'))"
@@ -42,7 +42,14 @@ async fn a_study_is_made_refused_mended_submitted_and_cloned() {
     browser
         .wait_for("document.querySelector('button.primary').disabled")
         .await;
+    // What was expected of the last valid specification is dimmed, and said to be outdated.
+    let dimmed = "document.querySelectorAll('.outdated[aria-disabled]').length";
+    browser.wait_for(&format!("{dimmed} === 2")).await;
+    browser
+        .shows("[aria-label='To scale']", "not of what is written now")
+        .await;
     type_into(&browser, "/cycles", "25").await;
+    browser.wait_for(&format!("{dimmed} === 0")).await;
     browser.wait_for("document.querySelector('.faults').innerText === '' && !document.querySelector('button.primary').disabled").await;
     let cycles = "JSON.parse(document.querySelector('textarea').value).cycles === 25";
     browser.wait_for(cycles).await;
@@ -60,6 +67,12 @@ async fn a_study_is_made_refused_mended_submitted_and_cloned() {
     clone.await.expect("it can be clicked");
     browser.shows("h1", "New study").await;
     browser.wait_for(cycles).await;
+    // The clone is of what was sent: defaults stay defaults.
+    browser
+        .wait_for(&format!(
+            "Object.keys({WRITTEN}).sort().join() === 'accuracy,cycles,name,system'"
+        ))
+        .await;
     browser
         .shows("[aria-label=Expected]", "processor time")
         .await;
@@ -68,7 +81,7 @@ async fn a_study_is_made_refused_mended_submitted_and_cloned() {
 }
 
 /// The specification that the form has written.
-const WRITTEN: &str = "JSON.parse(document.querySelector('textarea').value)";
+pub(super) const WRITTEN: &str = "JSON.parse(document.querySelector('textarea').value)";
 
 #[tokio::test]
 #[cfg_attr(

@@ -5,19 +5,13 @@ use tests::Browser;
 
 use super::{batch, fits_a_phone, is_sound, long, service_and_browser, short};
 
-/// Runs a script on the page.
-async fn run(browser: &Browser, script: &str) {
-    let done = browser.client.execute(script, Vec::new()).await;
-    done.unwrap_or_else(|error| panic!("{script}: {error}"));
-}
-
 /// Types into the input or select of a swept field, which are numbered from 0.
 async fn set(browser: &Browser, field: usize, part: &str, value: &str) {
     let script = format!(
         "const node = document.querySelectorAll('.swept')[{field}].querySelector('{part}'); node.value = '{value}'; \
          for (const name of ['input', 'change']) node.dispatchEvent(new Event(name))"
     );
-    run(browser, &script).await;
+    browser.run(&script).await;
 }
 
 #[tokio::test]
@@ -37,7 +31,7 @@ async fn a_sweep_from_the_form_is_watched_to_its_end_and_its_map_opens_jobs() {
     browser
         .shows("[aria-label=Expected]", "processor time")
         .await;
-    run(&browser, &type_base).await;
+    browser.run(&type_base).await;
     let offered = "[...document.querySelectorAll('.swept option')].some((option) => option.value === '/load/n_per_mm')";
     browser.wait_for(offered).await;
 
@@ -67,7 +61,7 @@ async fn a_sweep_from_the_form_is_watched_to_its_end_and_its_map_opens_jobs() {
     browser
         .wait_for("location.hash.startsWith('#/sweep/')")
         .await;
-    run(&browser, "window.was_not_reloaded = true").await;
+    browser.run("window.was_not_reloaded = true").await;
     browser.shows(".status", "all 9 succeeded").await;
     let cells = "document.querySelector('[data-chart=sweep-map] .plot').data[0].z.flat().filter((depth) => depth > 0).length === 9";
     browser.wait_for(cells).await;
@@ -80,7 +74,7 @@ async fn a_sweep_from_the_form_is_watched_to_its_end_and_its_map_opens_jobs() {
         .wait_for("document.querySelectorAll('.points tbody tr').length === 9")
         .await;
     // The quantity and the kind of chart are in the address; the back button undoes them.
-    run(&browser, "const choice = document.getElementById('choice-view'); choice.value = 'curves'; choice.dispatchEvent(new Event('change'))").await;
+    browser.run("const choice = document.getElementById('choice-view'); choice.value = 'curves'; choice.dispatchEvent(new Event('change'))").await;
     let curves = "document.querySelector('[data-chart=sweep] .plot').data.length === 3 && location.hash.includes('view=curves')";
     browser.wait_for(curves).await;
     browser.client.back().await.expect("there is a step back");
@@ -127,7 +121,7 @@ async fn a_listed_sweep_is_followed_cancelled_cloned_and_deleted() {
     browser.wait_for(values).await;
     browser.open("/#/sweeps").await;
     browser.shows(&row, "Delete").await;
-    run(&browser, "window.confirm = () => true").await;
+    browser.run("window.confirm = () => true").await;
     browser.click(&format!("{row} button")).await;
     browser.shows("main", "None here yet").await;
     let (status, _) = server.get(&format!("/v1/sweeps/{id}")).await;
