@@ -48,6 +48,7 @@ impl Pair {
         let resolved = spec::read(br#"{"system":{"kind":"fuzz_button"}}"#).expect("accepted");
         let plan = Estimate::of(&resolved).plan(&resolved, None);
         let job = NewJob {
+            sent: r#"{"system":{"kind":"fuzz_button"}}"#.to_owned(),
             spec: resolved.spec,
             plan,
             options: SubmitOptions::default(),

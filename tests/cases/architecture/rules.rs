@@ -56,7 +56,7 @@ enum Rule {
 use Rule::{MustNotName, Nowhere, OneRoute, OnlyIn, OnlyInExcept, TextOnlyIn};
 
 /// Route files whose one implementation serves several paths.
-const SEVERAL_PATHS: [&str; 10] = [
+const SEVERAL_PATHS: [&str; 11] = [
     // Both kinds of batches: `/v1/sweeps` and `/v1/studies`.
     "server/src/http/routes/batches/cancel.rs",
     "server/src/http/routes/batches/delete.rs",
