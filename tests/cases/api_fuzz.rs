@@ -19,10 +19,11 @@ const CHECKS: &str = "all";
 const EXPECTED: &str = r#"
 [[operations]]
 include-method = "POST"
+exclude-name = "POST /v1/jobs/retry"
 checks.positive_data_acceptance.expected-statuses = ["2xx", "404", "409", "422"]
 
 [[operations]]
-include-name = ["GET /v1/jobs", "GET /v1/sweeps", "GET /v1/studies"]
+include-name = ["GET /v1/jobs", "POST /v1/jobs/retry", "GET /v1/sweeps", "GET /v1/studies"]
 checks.positive_data_acceptance.expected-statuses = ["2xx", "400"]
 
 [[operations]]
