@@ -30,10 +30,13 @@ fn has_ended(job: &Value) -> bool {
     job["finished_at"].is_string()
 }
 
-async fn has_computed(server: &Server, id: &str, cycle: u64) {
-    server
-        .job_when(id, |job| job["progress"]["cycle"].as_u64() > Some(cycle))
+/// Waits until more than a number of cycles is computed; returns how many.
+async fn has_computed(server: &Server, id: &str, cycle: u64) -> u64 {
+    let computed = |job: &Value| job["progress"]["cycle"].as_u64();
+    let job = server
+        .job_when(id, |job| computed(job) > Some(cycle) || has_ended(job))
         .await;
+    computed(&job).expect("a cycle")
 }
 
 /// Copies the database of a job while it runs, restores it later, and compares the results with those of an undisturbed run.
@@ -57,7 +60,9 @@ async fn restored_beside_its_worker<C>(
     worker.signal(Signal::SIGSTOP);
     let copied = copy();
     worker.signal(Signal::SIGCONT);
-    has_computed(&server, &id, 600).await;
+    // Of two writes after the copy the worker knows that the first one has arrived, and does not send it again.
+    let first = has_computed(&server, &id, 600).await;
+    has_computed(&server, &id, first).await;
     let address = server.base.trim_start_matches("http://").to_owned();
     server.signal(Signal::SIGKILL);
     server.wait();
