@@ -207,7 +207,7 @@ pub(super) struct ChildArguments {
     /// Limit of writable memory.
     #[arg(long)]
     pub(super) memory_limit_mb: Option<u64>,
-    /// Whether it waits while the disk is full; otherwise it ends.
+    /// Wait while the disk is full; without it, the process ends.
     #[arg(long)]
     pub(super) waits_for_disk: bool,
 }

@@ -2,6 +2,7 @@
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
+use std::pin::pin;
 
 use api::event::Done;
 use api::job::Status;
@@ -43,10 +44,11 @@ pub(super) fn run(listen: SocketAddr, exit: bool) -> Ended {
 }
 
 async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
+    let mut signal = pin!(until_signal());
     let folder = PathBuf::from("fretwear-data").join(format!("demo-{}", Uuid::now_v7()));
     fs_err::create_dir_all(&folder)?;
     let database = format!("sqlite://{}", folder.join("fretwear.db").display());
-    let service = Service::start(Config {
+    let start = Service::start(Config {
         listen,
         tls: None,
         access: Access::default(),
@@ -58,8 +60,11 @@ async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
         keep_days: None,
         jobs_ahead: JOBS_AHEAD,
         worker: WorkerConfig::new(program::own()),
-    })
-    .await?;
+    });
+    let service = tokio::select! {
+        service = start => service?,
+        signal = &mut signal => return Ok(signal?),
+    };
     let base = format!("http://{}", service.address);
     write_err(format_args!(
         "fretwear serves on {base}, its data in {}",
@@ -67,14 +72,14 @@ async fn demonstrate(listen: SocketAddr, exit: bool) -> Result<(), DemoError> {
     ));
     let shown = tokio::select! {
         shown = show_job(&base) => shown,
-        signal = until_signal() => {
+        signal = &mut signal => {
             service.stop().await;
             return Ok(signal?);
         }
     };
     if let (Ok(()), false) = (&shown, exit) {
         write_err("the service continues; press Ctrl-C to stop it");
-        until_signal().await?;
+        signal.await?;
     }
     service.stop().await;
     shown

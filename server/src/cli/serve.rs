@@ -1,5 +1,7 @@
 //! `fretwear serve`: the service.
 
+use std::pin::pin;
+
 use nix::sys::resource::{Resource, getrlimit, setrlimit};
 
 use crate::cli::access::warn_of_umask;
@@ -35,7 +37,12 @@ pub(super) fn run(arguments: ServeArguments) -> Ended {
         objects,
     };
     block_on(async {
-        let service = Service::start(config).await.map_err(failed)?;
+        let signals = Signals::new().map_err(failed)?;
+        let mut end = pin!(until_end(signals, tls.as_ref()));
+        let service = tokio::select! {
+            service = Service::start(config) => service.map_err(failed)?,
+            () = &mut end => return Ok(()),
+        };
         // A log that a program reads has the address in its first line.
         if log == LogFormat::Text {
             let address = service.address;
@@ -43,7 +50,7 @@ pub(super) fn run(arguments: ServeArguments) -> Ended {
             write_err(format_args!("fretwear serves on {scheme}://{address}"));
         }
         let ended = tokio::select! {
-            ended = until_end(tls.as_ref()) => ended.map_err(failed),
+            () = end => Ok(()),
             () = service.ended() => Err(failed("another process serves the database")),
         };
         service.stop().await;
@@ -60,8 +67,7 @@ fn allow_many_files() {
 }
 
 /// Returns when a signal asks for the end. SIGHUP asks a service with a certificate to read it again, and others to end.
-async fn until_end(tls: Option<&Tls>) -> std::io::Result<()> {
-    let mut signals = Signals::new()?;
+async fn until_end(mut signals: Signals, tls: Option<&Tls>) {
     while let (Asked::Hangup, Some(tls)) = (signals.next().await, tls) {
         match tls.read_again() {
             Ok(()) => tracing::info!("the certificate was read again"),
@@ -70,5 +76,4 @@ async fn until_end(tls: Option<&Tls>) -> std::io::Result<()> {
             }
         }
     }
-    Ok(())
 }

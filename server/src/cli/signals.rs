@@ -12,7 +12,7 @@ pub(super) struct Signals {
     hangup: Option<Signal>,
 }
 
-/// What a signal asks for.
+/// Request of a signal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Asked {
     /// The end: SIGINT (Ctrl-C) or SIGTERM.
@@ -47,13 +47,16 @@ impl Signals {
     }
 }
 
-/// Returns at SIGINT (Ctrl-C), SIGTERM or SIGHUP.
-pub(super) async fn until_signal() -> io::Result<()> {
-    Signals::new()?.next().await;
-    Ok(())
+/// Ends at SIGINT (Ctrl-C), SIGTERM or SIGHUP. Signals are waited for from the call on, not from the first poll.
+pub(super) fn until_signal() -> impl Future<Output = io::Result<()>> {
+    let signals = Signals::new();
+    async {
+        signals?.next().await;
+        Ok(())
+    }
 }
 
-/// Whether this process was started with SIGHUP ignored.
+/// Checks whether this process was started with SIGHUP ignored.
 fn is_hangup_ignored() -> io::Result<bool> {
     let status = std::fs::read_to_string("/proc/self/status")?;
     Ok(ignored(&status).is_some_and(|signals| signals & 1 != 0))
@@ -69,7 +72,16 @@ fn ignored(status: &str) -> Option<u64> {
 
 #[cfg(test)]
 mod tests {
+    use nix::sys::signal::{Signal, raise};
+
     use super::*;
+
+    #[tokio::test]
+    async fn a_signal_before_the_first_poll_is_not_lost() {
+        let signal = until_signal();
+        raise(Signal::SIGTERM).expect("a signal");
+        signal.await.expect("no error");
+    }
 
     #[test]
     fn the_mask_of_ignored_signals_is_read() {

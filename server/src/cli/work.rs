@@ -26,6 +26,7 @@ pub(super) fn run(arguments: &WorkArguments) -> Ended {
     let config = Arc::new(arguments.work.config(program::own()));
     let scratch = Scratch::new(arguments.scratch.as_deref()).map_err(failed)?;
     block_on(async {
+        let signal = until_signal();
         let process = Arc::new(WorkerProcess::new(config.memory_mb, true));
         let slots = arguments.work.slots();
         let remote = Arc::new(Remote::new(RemoteOptions {
@@ -54,7 +55,7 @@ pub(super) fn run(arguments: &WorkArguments) -> Ended {
             cause = process.health().declined_in_a_row(MOST_DECLINED) => Err(failed(format_args!(
                 "no job could be solved here {MOST_DECLINED} times in a row; the last time: {cause}"
             ))),
-            signal = until_signal() => signal.map_err(failed),
+            signal = signal => signal.map_err(failed),
         };
         // Running solves write a last checkpoint, and their jobs return to the queue.
         stopping.cancel();
