@@ -1,8 +1,12 @@
 //! Requirement: a service with a certificate serves HTTPS only, and workers and commands trust the authority that they are given.
 
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use nix::sys::signal::Signal;
+use signal_hook::consts::SIGHUP;
+use signal_hook::flag::register_conditional_default;
 use tests::{Certificates, RemoteWorker, Server, fretwear};
 
 fn text(path: &Path) -> &str {
@@ -53,6 +57,9 @@ fn workers_and_commands_use_https_with_the_authority_that_they_are_given() {
 #[test]
 fn a_hangup_lets_a_service_read_its_certificate_again() {
     let folder = tempfile::tempdir().expect("a folder can be made");
+    // The default of SIGHUP for this process and those that it starts (execve(2)), also where the tests were started with it ignored.
+    let always = Arc::new(AtomicBool::new(true));
+    register_conditional_default(SIGHUP, always).expect("a handler");
     let first = Certificates::new(folder.path(), "127.0.0.1");
     let options = [
         "--tls-certificate",

@@ -1,143 +1,23 @@
 //! The binary as users run it: real servers, real solving processes, real kills.
 
-use std::io::{BufRead, BufReader};
+mod replaced_program;
+mod server;
+
+use std::net::TcpListener;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
-use std::time::Duration;
+use std::process::{Command, Stdio};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use nix::sys::signal::{Signal, kill};
 use nix::unistd::Pid;
 use serde_json::{Value, json};
+use signal_hook::consts::SIGHUP;
+use signal_hook::flag::register_conditional_default;
 use tempfile::TempDir;
 
-const FRETWEAR: &str = env!("CARGO_BIN_EXE_fretwear");
-/// Interval at which a job is polled.
-const POLL_INTERVAL: Duration = Duration::from_millis(20);
-/// A variable with a secret of the service.
-const PASSWORD: &str = "PGPASSWORD";
-/// Number of polls before a test fails.
-const POLL_LIMIT: usize = 15_000;
-
-/// A server with a database in a temporary folder; killed on drop.
-struct Server {
-    child: Child,
-    base: String,
-    client: reqwest::Client,
-}
-
-impl Server {
-    fn start(folder: &Path) -> Self {
-        Self::start_program(Path::new(FRETWEAR), folder)
-    }
-
-    fn start_program(program: &Path, folder: &Path) -> Self {
-        Self::start_command(Command::new(program), folder)
-    }
-
-    fn start_command(mut command: Command, folder: &Path) -> Self {
-        let mut child = command
-            .args([
-                "serve",
-                "--listen",
-                "127.0.0.1:0",
-                "--workers",
-                "1",
-                "--database",
-            ])
-            .arg(format!("sqlite://{}", folder.join("test.db").display()))
-            .env("RUST_LOG", "off")
-            .env(PASSWORD, "secret")
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("a server");
-        let stderr = child.stderr.take().expect("a pipe");
-        let line = BufReader::new(stderr)
-            .lines()
-            .next()
-            .expect("a line")
-            .expect("text");
-        let base = line
-            .split_whitespace()
-            .last()
-            .expect("an address")
-            .to_owned();
-        assert!(base.starts_with("http://127.0.0.1:"), "{line}");
-        Self {
-            child,
-            base,
-            client: reqwest::Client::new(),
-        }
-    }
-
-    fn signal(&self, signal: Signal) {
-        let id = i32::try_from(self.child.id()).expect("a process id");
-        kill(Pid::from_raw(id), signal).expect("a signal");
-    }
-
-    async fn get(&self, path: &str) -> Value {
-        let response = self
-            .client
-            .get(format!("{}{path}", self.base))
-            .send()
-            .await
-            .expect("an answer");
-        response.json().await.expect("JSON")
-    }
-
-    async fn post(&self, path: &str, body: &Value) -> Value {
-        let response = self
-            .client
-            .post(format!("{}{path}", self.base))
-            .json(body)
-            .send()
-            .await
-            .expect("an answer");
-        response.json().await.expect("JSON")
-    }
-
-    async fn submit(&self, spec: &Value) -> String {
-        let job = self.post("/v1/jobs", spec).await;
-        job["id"]
-            .as_str()
-            .unwrap_or_else(|| panic!("{job}"))
-            .to_owned()
-    }
-
-    /// Polls a job until it satisfies a condition.
-    async fn until(&self, id: &str, condition: impl Fn(&Value) -> bool) -> Value {
-        for _ in 0..POLL_LIMIT {
-            let job = self.get(&format!("/v1/jobs/{id}")).await;
-            if condition(&job) {
-                return job;
-            }
-            tokio::time::sleep(POLL_INTERVAL).await;
-        }
-        panic!(
-            "the job never satisfied the condition: {}",
-            self.get(&format!("/v1/jobs/{id}")).await
-        );
-    }
-
-    async fn until_computing(&self, id: &str) -> Value {
-        self.until(id, |job| {
-            job["status"] != "queued" && job["progress"]["cycle"].as_u64() > Some(0)
-        })
-        .await
-    }
-
-    async fn until_ended(&self, id: &str) -> Value {
-        self.until(id, |job| !job["finished_at"].is_null()).await
-    }
-}
-
-impl Drop for Server {
-    fn drop(&mut self) {
-        // It may have exited already.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
+use server::{FRETWEAR, PASSWORD, POLL_INTERVAL, POLL_LIMIT, Server};
 
 /// A specification with this number of computed cycles.
 fn spec(cycles: u64) -> Value {
@@ -322,8 +202,28 @@ async fn a_graceful_stop_costs_no_attempt_and_ends_open_streams() {
 }
 
 #[tokio::test]
+async fn a_service_that_still_waits_for_its_database_ends_at_a_signal() {
+    let silent = TcpListener::bind("127.0.0.1:0").expect("a port");
+    let address = silent.local_addr().expect("an address");
+    let folder = folder();
+    let mut service = Command::new(FRETWEAR)
+        .args(["serve", "--listen", "127.0.0.1:0", "--database"])
+        .arg(format!("postgres://nobody@{address}/none"))
+        .current_dir(folder.path())
+        .spawn()
+        .expect("a service");
+    let _connection = silent.accept().expect("a connection");
+    let id = i32::try_from(service.id()).expect("a process id");
+    kill(Pid::from_raw(id), Signal::SIGTERM).expect("a signal");
+    assert!(service.wait().expect("an end").success());
+}
+
+#[tokio::test]
 async fn a_hangup_ends_a_service_as_a_request_to_terminate_does_unless_it_is_ignored() {
     let folder = folder();
+    // The default of SIGHUP for this process and those that it starts (execve(2)), also where the tests were started with it ignored.
+    let always = Arc::new(AtomicBool::new(true));
+    register_conditional_default(SIGHUP, always).expect("a handler");
     let mut server = Server::start(folder.path());
     let id = server.submit(&spec(1_000_000)).await;
     server.until_computing(&id).await;
@@ -344,76 +244,4 @@ async fn a_hangup_ends_a_service_as_a_request_to_terminate_does_unless_it_is_ign
         .await;
     server.signal(Signal::SIGTERM);
     assert!(server.child.wait().expect("an end").success());
-}
-
-/// A copy of the program in a folder, which may be changed.
-fn copied_program(folder: &Path) -> PathBuf {
-    let program = folder.join("fretwear");
-    std::fs::copy(FRETWEAR, &program).expect("a copy");
-    program
-}
-
-#[tokio::test]
-async fn a_service_whose_program_is_replaced_solves_with_the_program_that_it_is() {
-    let folder = folder();
-    let program = copied_program(folder.path());
-    let server = Server::start_program(&program, folder.path());
-    let other = folder.path().join("other");
-    std::fs::write(&other, "#!/bin/sh\nexit 1\n").expect("a file");
-    std::fs::rename(other, &program).expect("replaced");
-    let replaced = server.submit(&spec(2)).await;
-    let job = server.until_ended(&replaced).await;
-    assert_eq!(
-        (&job["status"], &job["attempts"]),
-        (&json!("succeeded"), &json!(1)),
-        "{job}"
-    );
-    std::fs::remove_file(&program).expect("removed");
-    let removed = server.submit(&spec(2)).await;
-    let job = server.until_ended(&removed).await;
-    assert_eq!(
-        (&job["status"], &job["attempts"]),
-        (&json!("succeeded"), &json!(1)),
-        "{job}"
-    );
-}
-
-#[tokio::test]
-async fn a_service_that_may_not_execute_its_program_fails_no_job_and_is_not_ready_until_it_may() {
-    let folder = folder();
-    let program = copied_program(folder.path());
-    let server = Server::start_program(&program, folder.path());
-    let allow = |mode| {
-        let permissions = std::fs::Permissions::from_mode(mode);
-        std::fs::set_permissions(&program, permissions).expect("a mode");
-    };
-    allow(0o644);
-    let mut ids = Vec::new();
-    for _ in 0..5 {
-        ids.push(server.submit(&spec(2)).await);
-    }
-    let says_why = |job: &Value| {
-        let reason = job["status_reason"].as_str().unwrap_or_default();
-        reason.contains("did not start: Permission denied")
-    };
-    server.until(&ids[0], says_why).await;
-    let problem = server.get("/readyz").await;
-    assert_eq!(problem["type"], "/problems/workers-failing", "{problem}");
-    for id in &ids {
-        let job = server.get(&format!("/v1/jobs/{id}")).await;
-        assert!(
-            ["queued", "running"].contains(&job["status"].as_str().expect("text")),
-            "{job}"
-        );
-    }
-    allow(0o755);
-    for id in &ids {
-        let job = server.until_ended(id).await;
-        assert_eq!(
-            (&job["status"], &job["attempts"]),
-            (&json!("succeeded"), &json!(1)),
-            "{job}"
-        );
-    }
-    assert_eq!(server.get("/readyz").await["status"], "ready");
 }
