@@ -1,5 +1,7 @@
 // Plotly.js, loaded when the first chart is drawn.
 
+import { request } from "../parts/connection.js";
+
 /** @type {Promise<any> | null} */
 let loading = null;
 
@@ -14,7 +16,8 @@ export function plotly() {
     script.addEventListener("load", () => resolve(/** @type {any} */ (window).Plotly));
     script.addEventListener("error", () => {
       loading = null;
-      reject(new Error("the library of charts could not be loaded"));
+      // Says whether the service is away, or only that file.
+      request(script.src).then((answer) => (answer.ok ? resolve(plotly()) : reject(new Error("the library of charts could not be loaded"))), reject);
     });
     document.head.append(script);
   });

@@ -3,7 +3,7 @@
 use tests::Browser;
 
 use super::study::type_into;
-use super::{is_sound, service_and_browser};
+use super::{done, is_sound, service_and_browser, short};
 
 /// Checks that the page has complained of nothing but failed requests.
 async fn only_requests_failed(browser: &Browser) {
@@ -39,5 +39,25 @@ async fn what_is_typed_during_an_outage_is_planned_after_it() {
         .wait_for("document.getElementById('field-cycles').value === '25'")
         .await;
     only_requests_failed(&browser).await;
+    browser.close().await;
+}
+
+#[tokio::test]
+#[cfg_attr(
+    not(has_chromium),
+    ignore = "needs the programs chromium and chromedriver"
+)]
+async fn a_page_that_is_opened_during_an_outage_appears_after_it() {
+    let (_folder, server, browser) = service_and_browser().await;
+    let id = done(&server, &short("opened late")).await;
+    browser.open("/#/jobs").await;
+    browser
+        .wait_for("document.querySelector('tr[data-job]')")
+        .await;
+    browser.cut_off(true).await;
+    browser.run(&format!("location.hash = '#/job/{id}'")).await;
+    browser.wait_for(IS_AWAY).await;
+    browser.cut_off(false).await;
+    browser.shows(".status", "succeeded").await;
     browser.close().await;
 }
