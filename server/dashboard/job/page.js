@@ -64,7 +64,7 @@ export async function job_page(content, { id }, signal) {
   // The curves of the first run are not stored.
   if (job.progress.stage === "refined") history.first_run_ends();
   await show();
-  // What is stored of a job that has ended, too, may not have arrived.
+  // Results of a job that has ended may not have arrived either.
   when_reached_again(refresh, signal);
   if (!has_ended(job))
     live(id ?? "", signal, {

@@ -1,4 +1,4 @@
-// Whether the service can be reached: said in one place, and made known to what waits for it.
+// The connection to the service: a lost one is said in one place, and what waits for it is told when it is back.
 
 import { element } from "./element.js";
 

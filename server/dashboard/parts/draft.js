@@ -1,4 +1,4 @@
-// What is typed into a form, kept while the tab is open: over reloads, and for each step of the browser's history.
+// Drafts of forms, kept while the tab is open: over reloads, and for each step of the browser's history.
 
 const PREFIX = "draft ";
 

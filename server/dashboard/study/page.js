@@ -130,7 +130,7 @@ export async function study_page(content, { values }, signal) {
 }
 
 /**
- * What the form starts with: the specification of a job, or the preset of a system.
+ * First content of the form: the specification of a job, or the preset of a system.
  * @param {URLSearchParams} values of the address
  * @param {string} first kind of the first system
  * @param {AbortSignal} signal

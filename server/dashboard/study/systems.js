@@ -16,7 +16,7 @@ export function with_system(spec, kind) {
 }
 
 /**
- * What another system takes over.
+ * Parts that another system takes over.
  * @param {any} spec
  * @returns {[string, any][]}
  */

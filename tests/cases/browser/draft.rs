@@ -1,4 +1,4 @@
-//! What is typed into the form of a new study stays: over a reload, the back button and a change of the system.
+//! The draft of a new study stays in its form: over a reload, the back button and a change of the system.
 
 use super::study::{WRITTEN, type_into};
 use super::{is_sound, service_and_browser};

@@ -42,7 +42,7 @@ async fn a_study_is_made_refused_mended_submitted_and_cloned() {
     browser
         .wait_for("document.querySelector('button.primary').disabled")
         .await;
-    // What was expected of the last valid specification is dimmed, and said to be outdated.
+    // The expectation of the last valid specification is dimmed, and said to be outdated.
     let dimmed = "document.querySelectorAll('.outdated[aria-disabled]').length";
     browser.wait_for(&format!("{dimmed} === 2")).await;
     browser
