@@ -121,7 +121,7 @@ impl EffectsPlan {
             .collect()
     }
 
-    /// What a result misses by effects that are beyond their limits and not simulated, in words.
+    /// Effects that are beyond their limits and not simulated, each with what a result misses by it, in words.
     pub fn missed(&self) -> impl Iterator<Item = String> {
         self.decisions.iter().filter_map(|decision| {
             let missed = decision.missed()?;

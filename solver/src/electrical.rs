@@ -77,7 +77,7 @@ pub(crate) struct AreaContact {
     pub(crate) depths_mm: Vec<Sides<f64>>,
 }
 
-/// What the resistance of a contact is computed from.
+/// A contact as its resistance is computed from it: force, patches and time.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Touching {
     force_n: f64,
@@ -87,7 +87,7 @@ pub(crate) struct Touching {
 }
 
 impl Touching {
-    /// Whether a side shows a metal.
+    /// Checks whether a side shows a metal.
     fn shows(&self, side: Side, metal: usize) -> bool {
         let mut patches = self.patches.iter();
         patches.any(|patch| *patch.metal.of(side) == metal)
@@ -120,6 +120,20 @@ impl ElectricalState {
     /// The last resistance, mOhm.
     pub(crate) fn total_mohm(&self) -> Option<f64> {
         self.resistance.map(|found| found.total_mohm)
+    }
+}
+
+/// The state before and after a computed cycle.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ElectricalChange<'a> {
+    pub(crate) before: &'a ElectricalState,
+    pub(crate) after: &'a ElectricalState,
+}
+
+impl ElectricalChange<'_> {
+    /// The resistances before and after, mOhm, if both are computed.
+    pub(crate) fn total_mohm(self) -> Option<(f64, f64)> {
+        self.before.total_mohm().zip(self.after.total_mohm())
     }
 }
 

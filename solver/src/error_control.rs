@@ -59,13 +59,14 @@ fn control(
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     let plan = effects::plan(scene);
-    let mut done = with_companions((scene, &plan), from, observer)?;
+    let mut done = with_companions(scene, &plan, from, observer)?;
     done.warnings.extend(plan.missed());
     Ok(done)
 }
 
 fn with_companions(
-    (scene, plan): (&Scene, &EffectsPlan),
+    scene: &Scene,
+    plan: &EffectsPlan,
     from: Option<Checkpoint>,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {

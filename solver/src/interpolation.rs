@@ -13,6 +13,15 @@ pub fn linear(x: &[f64], y: &[f64], at: f64) -> f64 {
     (1.0 - t) * y[i - 1] + t * y[i]
 }
 
+/// Value after a part of the way from one value to another, of what grows evenly; exactly the other one at the end.
+pub fn part_way(from: f64, to: f64, part: f64) -> f64 {
+    if part < 1.0 {
+        from + part * (to - from)
+    } else {
+        to
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -23,6 +32,13 @@ mod tests {
         for (at, value) in [(-1.0, 2.0), (0.5, 3.0), (1.0, 4.0), (2.0, 1.0), (9.0, -2.0)] {
             assert!((linear(&x, &y, at) - value).abs() < 1e-15, "{at}");
         }
+    }
+
+    #[test]
+    fn the_end_of_the_way_is_exact() {
+        let (from, to) = (0.1, 0.3);
+        assert!((part_way(from, to, 0.5) - 0.2).abs() < 1e-16);
+        assert_eq!(part_way(from, to, 1.0).to_bits(), to.to_bits());
     }
 
     #[test]

@@ -26,8 +26,8 @@ pub use compared::{Compared, Quantity};
 pub use errors::{ErrorParts, Errors};
 pub(crate) use exposure::{Exposed, WornSurface};
 pub use history::{Column, Layer, LineColumns, Record};
-pub(crate) use life::unreached;
 pub use life::{CriterionState, Life};
+pub(crate) use life::{CycleRange, unreached};
 pub use report::{
     CycleReport, ExtentReport, ResistanceReport, SideReport, TemperatureReport, report,
 };

@@ -17,10 +17,12 @@ use crate::checkpoint::{Checkpoint, Earlier, Misfit, Resumable, SectionRun};
 use crate::condensation::{self, Condensed};
 use crate::cycle::{CycleRecord, Integrator};
 use crate::effects::{self, EffectsPlan};
+use crate::electrical::ElectricalChange;
 use crate::model::{self, Model};
 use crate::observer::{Event, Observer, Phase};
 use crate::record::{self, Exposed, Outcome, Summary};
 use crate::scene::{Dimension, Scene};
+use computed::Computed;
 use load::{Loaded, load_unworn};
 use progress::{end, progress};
 use resistance::Consequence;
@@ -201,8 +203,19 @@ fn integrate(
         let surface = |side| record::worn_surface(model, &run.state, side);
         run.life.push(scene, run.state.cycle, surface);
         if let Some(evaluation) = &evaluation {
-            let (tools, bodies) = ((evaluation, scene), (model, condensed));
-            resistance::push_life_of_section(tools, bodies, (run, &before, &electrical));
+            let computed = Computed {
+                evaluation,
+                scene,
+                model,
+                condensed,
+                before: &before,
+                after: &run.state,
+            };
+            let change = ElectricalChange {
+                before: &electrical,
+                after: &run.electrical,
+            };
+            resistance::push_life_of_section(computed, change, &mut run.life);
         }
         let end = end(scene, (model, &spines), run);
         let delivered = deliver(scene, (model, condensed), run, (record, end), observer)?;

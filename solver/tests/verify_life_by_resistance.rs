@@ -137,7 +137,7 @@ fn no_life_by_resistance_ends_before_the_exposure_that_causes_it() {
     for draw in 0..12 {
         let Drawn { scene, above_film } = drawn(&mut random);
         let scene = if draw % 6 == 5 { ball(&scene) } else { scene };
-        // What no metal without a film comes to.
+        // A resistance that no metal without a film comes to.
         let limits = [10.0, 15.0, 100.0].map(|factor| factor * clean);
         let (exposures, found) = lives(&limited(scene, &[], &limits));
         let Some(exposed) = exposures[above_film].cycles else {

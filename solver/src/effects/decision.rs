@@ -19,7 +19,7 @@ pub struct Decision {
 }
 
 impl Decision {
-    /// What the result misses, in words, where the effect is beyond its limit and not simulated.
+    /// Error of the result in words, where the effect is beyond its limit and not simulated.
     pub fn missed(&self) -> Option<String> {
         let indicator = self.indicator?;
         let is_missed = !self.verdict.is_on() && indicator.value() > indicator.threshold;

@@ -1,6 +1,6 @@
 //! Where in a computed cycle something happens to the contact: the first part of the cycle after which it has.
 
-use super::{ElectricalState, Evaluation, Touching};
+use super::{ElectricalChange, ElectricalState, Evaluation, Touching};
 use crate::sides::Side;
 
 /// Halvings of the cycle: to 1e-9 of it.
@@ -27,17 +27,16 @@ impl Evaluation<'_> {
         }
     }
 
-    /// The part of a computed cycle after which the resistance is at a limit that it has at the end, mOhm, from the states before and after
-    /// the cycle.
+    /// The part of a computed cycle after which the resistance is at a limit that it has at the end, mOhm, by the change of the state in it.
     pub(crate) fn part_at(
         &self,
         limit_mohm: f64,
-        (before, after): (&ElectricalState, &ElectricalState),
+        change: ElectricalChange<'_>,
         during: impl Fn(f64) -> Touching,
     ) -> f64 {
         let mut state = ElectricalState {
-            exposed_since_s: after.exposed_since_s.clone(),
-            ..before.clone()
+            exposed_since_s: change.after.exposed_since_s.clone(),
+            ..change.before.clone()
         };
         first(|part| {
             self.take(&mut state, during(part));

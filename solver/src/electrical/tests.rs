@@ -35,6 +35,22 @@ fn electrical(metals: Sides<Vec<Metal>>) -> Electrical {
     }
 }
 
+/// A base with a film.
+fn filmed(film: Film) -> Metal {
+    Metal {
+        film: Some(film),
+        ..base(GOLD)
+    }
+}
+
+/// A layer of gold, on one side, over a base with a film.
+fn gold_over(film: Film) -> Electrical {
+    electrical(Sides {
+        slider: vec![base(GOLD)],
+        receptacle: vec![metal(1e-3, GOLD, 1_700.0), filmed(film)],
+    })
+}
+
 fn of_gold() -> Electrical {
     electrical(Sides {
         slider: vec![base(GOLD)],
@@ -182,14 +198,7 @@ fn a_film_grows_from_the_exposure_of_its_metal_on() {
             time_s: 100.0,
         }),
     };
-    let below = Metal {
-        film: Some(film),
-        ..base(GOLD)
-    };
-    let plated = electrical(Sides {
-        slider: vec![base(GOLD)],
-        receptacle: vec![metal(1e-3, GOLD, 1_700.0), below],
-    });
+    let plated = gold_over(film);
     let evaluation = Evaluation::new(&plated);
     let mut state = ElectricalState::default();
     let mut film_at = |depth: [f64; 2], time_s: [f64; 2]| {
@@ -213,7 +222,7 @@ fn a_film_grows_from_the_exposure_of_its_metal_on() {
     let mut state = ElectricalState::default();
     let bare = electrical(Sides {
         slider: vec![base(GOLD)],
-        receptacle: vec![below],
+        receptacle: vec![filmed(film)],
     });
     for time_s in [0.0, 400.0] {
         update(&bare, &mut state, &contact(&[0.0; 5], time_s));
@@ -229,14 +238,7 @@ fn a_limit_of_a_jump_is_reached_where_the_metal_is_exposed() {
         specific_resistance_ohm_mm2: 1.0,
         growth: None,
     };
-    let below = Metal {
-        film: Some(film),
-        ..base(GOLD)
-    };
-    let plated = electrical(Sides {
-        slider: vec![base(GOLD)],
-        receptacle: vec![metal(1e-3, GOLD, 1_700.0), below],
-    });
+    let plated = gold_over(film);
     let evaluation = Evaluation::new(&plated);
     let during = |part: f64| evaluation.section(&contact(&[0.5e-3 + 2e-3 * part; 5], part));
     let mut before = ElectricalState::default();
@@ -246,15 +248,19 @@ fn a_limit_of_a_jump_is_reached_where_the_metal_is_exposed() {
     let (clean, covered) = (before.total_mohm(), after.total_mohm());
     let (clean, covered) = (clean.expect("computed"), covered.expect("computed"));
     assert!(covered > 1e3 * clean, "{clean} {covered}");
+    let change = ElectricalChange {
+        before: &before,
+        after: &after,
+    };
     for limit in [1.01 * clean, 10.0 * clean, 0.999 * covered] {
-        let part = evaluation.part_at(limit, (&before, &after), during);
+        let part = evaluation.part_at(limit, change, during);
         assert!(
             (part - 0.25).abs() < 1e-9 && part >= 0.25,
             "{limit}: {part}"
         );
     }
-    // What is there from the beginning is reached at once.
-    let part = evaluation.part_at(0.9 * clean, (&before, &after), during);
+    // A limit that is exceeded from the beginning is reached at once.
+    let part = evaluation.part_at(0.9 * clean, change, during);
     assert!(part <= 0.0, "{part}");
 }
 

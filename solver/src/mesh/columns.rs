@@ -142,7 +142,7 @@ impl ColumnMesh {
         nodes
     }
 
-    /// Whether the far face lies above the surface, by the longest spine: the rounded end of one without length may lie on either side.
+    /// Checks whether the far face lies above the surface, by the longest spine: the rounded end of one without length may lie on either side.
     fn is_upward(&self) -> bool {
         let lengths = self.surface_y.iter().map(|y| self.far_y - y);
         lengths.fold(0.0, |most: f64, length| {

@@ -84,9 +84,8 @@ impl PointState {
             Sides::from_fn(|side| {
                 let surface = self.sliding.surfaces.of(side);
                 let (first_row, first_column) = *first.of(side);
-                let cell = (first_row + row, first_column + column);
-                let depth = surface.depth_mm(surface.dose_within(part, cell));
-                depth.min(*limits.of(side))
+                let dose = surface.dose_within(part, first_row + row, first_column + column);
+                surface.depth_mm(dose).min(*limits.of(side))
             })
         });
         depths.collect()

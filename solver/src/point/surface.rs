@@ -8,6 +8,7 @@ use std::ops::Range;
 use serde::{Deserialize, Serialize};
 
 use super::field::{Axis, Field};
+use crate::interpolation::part_way;
 use crate::law::surface::SurfaceWear;
 
 /// A worn surface.
@@ -68,15 +69,9 @@ impl Surface {
     }
 
     /// Dose of a cell in a row and a column after a part of the present computed cycle that is done, MPa mm: it grows evenly.
-    pub(super) fn dose_within(&self, part: f64, (row, column): (usize, usize)) -> f64 {
+    pub(super) fn dose_within(&self, part: f64, row: usize, column: usize) -> f64 {
         let at = |field: &Field| field.rows(row, 1)[column];
-        let after = at(&self.dose);
-        if part < 1.0 {
-            let before = at(&self.before);
-            before + part * (after - before)
-        } else {
-            after
-        }
+        part_way(at(&self.before), at(&self.dose), part)
     }
 
     /// Growth of the depth of a place of a dose by another one that is added, mm, and the specific wear rate then, 1/MPa.

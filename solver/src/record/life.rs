@@ -8,6 +8,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Exposed;
+use crate::interpolation::part_way;
 use crate::number::real_cycles;
 use crate::scene::{Criterion, Scene};
 use crate::sides::{Side, Sides};
@@ -42,6 +43,22 @@ pub struct CriterionState {
     pub error: Option<f64>,
 }
 
+/// The cycles that a computed cycle stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct CycleRange {
+    /// Cycles done before it.
+    pub(crate) from: u64,
+    /// Cycles done after it.
+    pub(crate) to: u64,
+}
+
+impl CycleRange {
+    /// Cycles done after a part of them.
+    pub(crate) fn after(self, part: f64) -> f64 {
+        part_way(real_cycles(self.from), real_cycles(self.to), part)
+    }
+}
+
 impl Life {
     /// The criteria and the limits of the resistance, in this order.
     fn all(&self) -> impl Iterator<Item = &CriterionState> {
@@ -66,7 +83,7 @@ impl Life {
     pub(crate) fn push_resistance(
         &mut self,
         limits: &[f64],
-        (last, cycle): (u64, u64),
+        cycles: CycleRange,
         (before, after): (f64, f64),
         part_at: impl Fn(f64, &[CriterionState]) -> f64,
     ) {
@@ -80,8 +97,7 @@ impl Life {
                 } else {
                     part_at(*limit, &self.criteria)
                 };
-                let cycles = real_cycles(cycle - last);
-                state.cycles = Some(real_cycles(last) + part * cycles);
+                state.cycles = Some(cycles.after(part));
             }
         }
     }
@@ -177,9 +193,11 @@ mod tests {
         let mut life = Life::default();
         let limits = [1.0, 3.0, 10.0];
         let mut next = |cycle, resistances| {
-            life.push_resistance(&limits, (cycle - 100, cycle), resistances, |limit, _| {
-                limit / 12.0
-            });
+            let cycles = CycleRange {
+                from: cycle - 100,
+                to: cycle,
+            };
+            life.push_resistance(&limits, cycles, resistances, |limit, _| limit / 12.0);
             life.resistance
                 .iter()
                 .map(|state| state.cycles)

@@ -1,6 +1,8 @@
 //! The run of a contact of finite extent across the sliding direction, a point, a line or extruded bodies: cycles until it ends, with the events of the
 //! run of a section. What its bodies are computed by is behind a trait.
 
+mod conduction;
+mod contact;
 mod extruded;
 mod line;
 mod point;
@@ -8,80 +10,21 @@ mod sections;
 
 use std::ops::ControlFlow;
 
-use super::computed::{UNLIMITED, cycle_after, elapsed_s};
 use super::resistance::{self, Consequence};
 use crate::SolveError;
-use crate::checkpoint::{Earlier, ExtrudedRun, FiniteRun, LineRun, Misfit, PointRun, Resumable};
+use crate::checkpoint::{Earlier, ExtrudedRun, FiniteRun, LineRun, Misfit, PointRun};
 use crate::effects::EffectsPlan;
-use crate::electrical::{AreaContact, ContactResistance, ElectricalState, Evaluation};
+use crate::electrical::{ElectricalChange, ElectricalState};
 use crate::extruded::ExtrudedIntegrator;
 use crate::observer::{Event, Observer, Phase};
 use crate::point::PointIntegrator;
-use crate::record::{
-    Checks, Compared, CycleReport, Exposed, Initial, Life, Outcome, Resolution, Snapshot, Summary,
-};
+use crate::record::{Compared, Exposed, Initial, Life, Outcome, Summary};
 use crate::scene::{Dimension, Scene};
 use crate::schedule::stops::{self, Progress};
-use crate::sides::{Side, Sides};
+use crate::sides::Side;
 use crate::station::LineIntegrator;
-
-/// What computes the cycles of a contact of finite extent, with what a plan simulates.
-trait Contact: Sized {
-    /// State between two computed cycles.
-    type State: Clone;
-    /// Worn depths of both bodies, read once a cycle.
-    type Worn;
-    /// The scar of a body.
-    type Scar: Exposed;
-
-    /// The loaded contact before any wear.
-    fn start(scene: &Scene, plan: &EffectsPlan) -> Result<(Self, Self::State), SolveError>;
-    /// For a state, which takes the laws of the plan.
-    fn resume(
-        scene: &Scene,
-        plan: &EffectsPlan,
-        state: &mut Self::State,
-    ) -> Result<Self, SolveError>;
-    /// Computes the next cycle up to a number of them.
-    fn compute_cycle(&mut self, state: &mut Self::State, until: u64) -> Result<(), SolveError>;
-
-    fn cycle(state: &Self::State) -> u64;
-    /// Largest worn depth of each side, mm.
-    fn max_depth_mm(state: &Self::State) -> Sides<f64>;
-    /// Largest wear of a place of each side per cycle, as equivalent depth, mm.
-    fn fastest_rate(state: &Self::State) -> Sides<f64>;
-    /// Cycles in which a body would be worn through, and whether one is.
-    fn cycles_left(&self) -> (f64, bool);
-    /// Why it cannot be worn on besides.
-    fn ending(&self) -> Option<Outcome>;
-    /// What its resistance depends on after a part of the cycles between two states, with no place deeper than limits, mm; none of a contact
-    /// whose resistance is not computed.
-    fn areas<'a>(
-        before: &'a Self::State,
-        after: &'a Self::State,
-    ) -> Option<impl Fn(f64, Sides<f64>) -> AreaContact + 'a>;
-
-    fn worn(&self, state: &Self::State) -> Self::Worn;
-    fn scars(worn: &Self::Worn) -> Sides<Self::Scar>;
-    fn report(
-        &self,
-        scene: &Scene,
-        state: &Self::State,
-        worn: &Self::Worn,
-        resistance: Option<&ContactResistance>,
-    ) -> CycleReport;
-    fn snapshot(
-        &self,
-        scene: &Scene,
-        state: &Self::State,
-        worn: Self::Worn,
-    ) -> Result<Snapshot, SolveError>;
-    fn resolution(&self, state: &Self::State) -> Resolution;
-    fn checks(&self, state: &Self::State) -> Checks;
-
-    /// The run as that of a checkpoint.
-    fn resumable(run: &FiniteRun<Self::State>) -> Resumable<'_>;
-}
+use conduction::{push_life_by_resistance, range, update_resistance};
+use contact::Contact;
 
 /// Solves a contact of finite extent by a plan, after earlier runs of it.
 pub(super) fn begin(
@@ -141,8 +84,7 @@ fn begin_contact<C: Contact>(
     let (contact, state) = C::start(scene, plan)?;
     let mut electrical = ElectricalState::default();
     let evaluation = resistance::evaluation(scene, plan);
-    let tools = (scene, evaluation.as_ref());
-    update_resistance::<C>(tools, &mut electrical, (&state, &state));
+    update_resistance::<C>(scene, evaluation.as_ref(), &state, &state, &mut electrical);
     let worn = contact.worn(&state);
     let report = contact.report(scene, &state, &worn, electrical.resistance.as_ref());
     let initial = Initial {
@@ -214,7 +156,6 @@ fn integrate<C: Contact>(
 ) -> Result<ControlFlow<Outcome>, SolveError> {
     const STOPPED: ControlFlow<Outcome> = ControlFlow::Break(Outcome::Stopped);
     let evaluation = resistance::evaluation(scene, plan);
-    let tools = (scene, evaluation.as_ref());
     // Where a limit of the resistance was passed by too much.
     let mut until_limit = u64::MAX;
     let mut scars = C::scars(&contact.worn(&run.state));
@@ -231,10 +172,19 @@ fn integrate<C: Contact>(
             return Ok(ControlFlow::Continue(()));
         }
         let electrical_before = run.electrical.clone();
-        update_resistance::<C>(tools, &mut run.electrical, (&before, &run.state));
-        let resistances = (&electrical_before, &run.electrical);
-        if let Some(Consequence::GoTo(sooner)) =
-            resistance::consequence(scene, plan, cycles, resistances)
+        update_resistance::<C>(
+            scene,
+            evaluation.as_ref(),
+            &before,
+            &run.state,
+            &mut run.electrical,
+        );
+        let change = ElectricalChange {
+            before: &electrical_before,
+            after: &run.electrical,
+        };
+        let range = range::<C>(&before, &run.state);
+        if let Some(Consequence::GoTo(sooner)) = resistance::consequence(scene, plan, range, change)
         {
             run.state = before;
             (run.electrical, until_limit) = (electrical_before, sooner);
@@ -248,7 +198,7 @@ fn integrate<C: Contact>(
         run.compared.push(&report);
         run.life
             .push(scene, C::cycle(&run.state), |side| scars.of(side));
-        push_life_by_resistance::<C>(tools, run, (&before, &electrical_before));
+        push_life_by_resistance::<C>(scene, evaluation.as_ref(), &before, &electrical_before, run);
         if observer.on(Event::Cycle(&report)).is_break() {
             return Ok(STOPPED);
         }
@@ -270,39 +220,6 @@ fn integrate<C: Contact>(
         }
     }
     Ok(ControlFlow::Break(Outcome::Completed))
-}
-
-/// Takes the contact after a computed cycle into the resistance, if it is evaluated; from the states before and after the cycle.
-fn update_resistance<C: Contact>(
-    (scene, evaluation): (&Scene, Option<&Evaluation<'_>>),
-    electrical: &mut ElectricalState,
-    (before, after): (&C::State, &C::State),
-) {
-    let (Some(evaluation), Some(areas)) = (evaluation, C::areas(before, after)) else {
-        return;
-    };
-    let cycles = (C::cycle(before), C::cycle(after));
-    evaluation.update(electrical, |part| {
-        let time_s = elapsed_s(scene, cycle_after(cycles, part));
-        evaluation.area(&areas(part, UNLIMITED), time_s)
-    });
-}
-
-/// Takes a computed cycle into the lives by the resistance, if it is evaluated; from the states before the cycle.
-fn push_life_by_resistance<C: Contact>(
-    (scene, evaluation): (&Scene, Option<&Evaluation<'_>>),
-    run: &mut FiniteRun<C::State>,
-    (before, electrical): (&C::State, &ElectricalState),
-) {
-    let (Some(evaluation), Some(areas)) = (evaluation, C::areas(before, &run.state)) else {
-        return;
-    };
-    let cycles = (C::cycle(before), C::cycle(&run.state));
-    let (tools, states) = ((scene, evaluation), (electrical, &run.electrical));
-    resistance::push_life(tools, cycles, states, &mut run.life, |part, limits| {
-        let time_s = elapsed_s(scene, cycle_after(cycles, part));
-        evaluation.area(&areas(part, limits), time_s)
-    });
 }
 
 /// Its progress for its stops.

@@ -87,12 +87,14 @@ fn load(
     let mut electrical = ElectricalState::default();
     if let Some(evaluation) = resistance::evaluation(scene, plan) {
         let unworn = Computed {
+            evaluation: &evaluation,
+            scene,
+            model,
+            condensed,
             before: &state,
             after: &state,
         };
-        evaluation.update(&mut electrical, |part| {
-            unworn.contact((&evaluation, scene), (model, condensed), (part, UNLIMITED))
-        });
+        evaluation.update(&mut electrical, |part| unworn.contact(part, UNLIMITED));
         state.constriction_mohm = electrical.constriction_mohm();
     }
     let report = record::report(scene, model, &state, electrical.resistance);

@@ -4,10 +4,10 @@ use crate::checkpoint::SectionRun;
 use crate::condensation::Condensed;
 use crate::cycle::CycleState;
 use crate::effects::{Crossing, Effect, EffectsPlan};
-use crate::electrical::{ElectricalState, Evaluation, Touching};
+use crate::electrical::{ElectricalChange, ElectricalState, Evaluation, Touching};
 use crate::model::Model;
-use crate::record::{Life, unreached};
-use crate::run::computed::{Computed, UNLIMITED, cycle_after};
+use crate::record::{CycleRange, Life, unreached};
+use crate::run::computed::{Computed, UNLIMITED};
 use crate::scene::Scene;
 use crate::schedule::stops;
 use crate::sides::Sides;
@@ -37,14 +37,21 @@ pub(super) fn update(
 ) -> Option<Consequence> {
     let electrical = run.electrical.clone();
     let computed = Computed {
+        evaluation,
+        scene,
+        model,
+        condensed,
         before,
         after: &run.state,
     };
     evaluation.update(&mut run.electrical, |part| {
-        computed.contact((evaluation, scene), (model, condensed), (part, UNLIMITED))
+        computed.contact(part, UNLIMITED)
     });
-    let cycles = (before.cycle, run.state.cycle);
-    let found = consequence(scene, plan, cycles, (&electrical, &run.electrical));
+    let change = ElectricalChange {
+        before: &electrical,
+        after: &run.electrical,
+    };
+    let found = consequence(scene, plan, computed.cycles(), change);
     match &found {
         None => run.state.constriction_mohm = run.electrical.constriction_mohm(),
         Some(Consequence::GoTo(_)) => {
@@ -63,59 +70,50 @@ pub(super) fn update(
 pub(super) fn consequence(
     scene: &Scene,
     plan: &EffectsPlan,
-    cycles: (u64, u64),
-    (before, after): (&ElectricalState, &ElectricalState),
+    CycleRange { from, to }: CycleRange,
+    change: ElectricalChange<'_>,
 ) -> Option<Consequence> {
     let electrical = scene.conduction.known()?;
-    let resistances = (before.total_mohm()?, after.total_mohm()?);
-    if let Some(sooner) = stops::resistance_passed(electrical, cycles, resistances) {
+    let resistances = change.total_mohm()?;
+    if let Some(sooner) = stops::resistance_passed(electrical, (from, to), resistances) {
         return Some(Consequence::GoTo(sooner));
     }
-    let called_for = plan.crossed_by_current(scene, cycles.0, after);
+    let called_for = plan.crossed_by_current(scene, from, change.after);
     (!called_for.is_empty()).then_some(Consequence::Effects(called_for))
 }
 
 /// Takes a computed cycle into the lives by the resistance, after those by the depth: a limit that is passed in it is located among its
 /// contacts, in none of which a place is deeper than a criterion that is reached later. `contact` is the one after a part of the cycle.
 pub(super) fn push_life(
-    (scene, evaluation): (&Scene, &Evaluation<'_>),
-    cycles: (u64, u64),
-    (before, after): (&ElectricalState, &ElectricalState),
+    scene: &Scene,
+    evaluation: &Evaluation<'_>,
+    cycles: CycleRange,
+    change: ElectricalChange<'_>,
     life: &mut Life,
     contact: impl Fn(f64, Sides<f64>) -> Touching,
 ) {
     let limits = scene.conduction.known().map(|known| &known.life_mohm[..]);
-    let resistances = before.total_mohm().zip(after.total_mohm());
-    let (Some(limits), Some(resistances)) = (limits, resistances) else {
+    let (Some(limits), Some(resistances)) = (limits, change.total_mohm()) else {
         return;
     };
     life.push_resistance(limits, cycles, resistances, |limit, criteria| {
-        evaluation.part_at(limit, (before, after), |part| {
-            let at = cycle_after(cycles, part);
-            contact(part, unreached(scene, criteria, at))
+        evaluation.part_at(limit, change, |part| {
+            contact(part, unreached(scene, criteria, cycles.after(part)))
         })
     });
 }
 
-/// The same of a section, from the states before the computed cycle.
+/// The same of a section.
 pub(super) fn push_life_of_section(
-    (evaluation, scene): (&Evaluation<'_>, &Scene),
-    bodies: (&Model, &Condensed),
-    (run, before, electrical): (&mut SectionRun, &CycleState, &ElectricalState),
+    computed: Computed<'_>,
+    change: ElectricalChange<'_>,
+    life: &mut Life,
 ) {
-    let computed = Computed {
-        before,
-        after: &run.state,
-    };
-    let cycles = (before.cycle, run.state.cycle);
-    let states = (electrical, &run.electrical);
-    push_life(
-        (scene, evaluation),
-        cycles,
-        states,
-        &mut run.life,
-        |part, limits| computed.contact((evaluation, scene), bodies, (part, limits)),
-    );
+    let Computed {
+        scene, evaluation, ..
+    } = computed;
+    let contact = |part, limits| computed.contact(part, limits);
+    push_life(scene, evaluation, computed.cycles(), change, life, contact);
 }
 
 /// Whether the resistance has reached a limit that ends the run.

@@ -181,8 +181,8 @@ mod long {
     #[ignore = "long: takes 40 s"]
     fn runs_by_all_power_laws_resume_to_the_same_bits() {
         for stroke in [(0.004, 400), (0.1, 50)] {
-            for named in laws(stroke.0) {
-                resumes(named, stroke, 4);
+            for (name, law) in laws(stroke.0) {
+                resumes(name, law, stroke, 4);
             }
         }
     }
@@ -243,13 +243,14 @@ fn the_reference_length_belongs_to_the_constants() {
 #[test]
 fn runs_by_power_laws_resume_to_the_same_bits() {
     let [_, accelerating, repetition, hardening] = laws(0.004);
-    for law in [accelerating, repetition, hardening] {
-        resumes(law, (0.004, 400), 2);
+    for (name, law) in [accelerating, repetition, hardening] {
+        resumes(name, law, (0.004, 400), 2);
     }
-    resumes(laws(0.1)[1], (0.1, 50), 2);
+    let (name, law) = laws(0.1)[1];
+    resumes(name, law, (0.1, 50), 2);
 }
 
-fn resumes((name, law): (&str, WearLaw), stroke: (f64, u64), times: usize) {
+fn resumes(name: &str, law: WearLaw, stroke: (f64, u64), times: usize) {
     let mut scene = at_speed(stroke, law, &Side::BOTH);
     scene.output.snapshots_at_cycles = vec![stroke.1 / 2, stroke.1];
     resumes_to_the_same_bits(&format!("{name}, {} mm", stroke.0), &scene, times);

@@ -16,12 +16,18 @@
 //!
 //! The residual is the larger of sum p |g|/sum p and of the deepest overlap, over the mean displacement sum p (C + d) p/sum p.
 
+mod fields;
+
 use super::cells::Cells;
 use super::convolution::{Convolution, Parity};
 use super::error::AreaError;
 use super::kernel::normal_influence;
 use super::preconditioner::{Preconditioner, least_compliance};
 use crate::number::real;
+
+use fields::{
+    Fields, add_wear, dot, mean_in_contact, mean_over_contact, remove_resultant, scale, start,
+};
 
 /// Most iterations. Unworn contacts take 11 to 15, worn ones about 6.
 pub const MOST_ITERATIONS: usize = 1_000;
@@ -59,23 +65,6 @@ pub struct NormalContact {
     compliance: Convolution,
     preconditioner: Option<Preconditioner>,
     fields: Fields,
-}
-
-/// Fields of an iteration; each has a value for each cell.
-struct Fields {
-    /// Displacement by pressure and wear, mm.
-    displacement: Vec<f64>,
-    /// Gap less its mean in contact, and the last one, mm.
-    residual: Vec<f64>,
-    last_residual: Vec<f64>,
-    /// Preconditioned residual, MPa.
-    steepest: Vec<f64>,
-    /// Pressure of a uniform displacement of the contact by the preconditioner, MPa/mm, where the wear differs from place to place; 1
-    /// elsewhere.
-    uniform: Vec<f64>,
-    /// Direction, MPa, and its displacement, mm.
-    direction: Vec<f64>,
-    response: Vec<f64>,
 }
 
 impl NormalContact {
@@ -134,7 +123,7 @@ impl NormalContact {
         if let Some(preconditioner) = &mut self.preconditioner {
             let wear = problem.wear_mm_per_mpa;
             let mean = mean_in_contact(wear, pressure);
-            preconditioner.set_wear(&self.cells, (wear, mean), pressure);
+            preconditioner.set_wear(&self.cells, wear, mean, pressure);
         }
         self.fields.direction.fill(0.0);
         self.displace(problem, pressure);
@@ -278,91 +267,6 @@ impl NormalContact {
         }
         Ok(())
     }
-}
-
-impl Fields {
-    /// Mean in contact of gap and displacement: the approach, mm.
-    fn mean_gap(&self, gap: &[f64], pressure: &[f64]) -> f64 {
-        mean_over_contact(
-            pressure,
-            self.displacement.iter().zip(gap).map(|(u, h)| u + h),
-        )
-    }
-
-    /// Updates the residual of the cells in contact; returns the relative one.
-    fn update_residual(&mut self, gap: &[f64], approach: f64, pressure: &[f64]) -> f64 {
-        let (mut open, mut worst, mut total, mut work) = (0.0, 0.0_f64, 0.0, 0.0);
-        let places = self.displacement.iter().zip(gap).zip(pressure);
-        for (residual, ((u, h), p)) in self.residual.iter_mut().zip(places) {
-            let g = u + h - approach;
-            if *p > 0.0 {
-                *residual = g;
-                open += p * g.abs();
-                total += p;
-                work += p * u;
-            } else {
-                *residual = 0.0;
-                worst = worst.max(-g);
-            }
-        }
-        (open / total).max(worst) / (work / total)
-    }
-}
-
-/// Scales a pressure to the force, or begins with a uniform one.
-fn start(cells: &Cells, force_n: f64, pressure: &mut [f64]) {
-    let is_usable = pressure.iter().all(|p| p.is_finite() && *p >= 0.0);
-    if !is_usable || pressure.iter().sum::<f64>() <= 0.0 {
-        pressure.fill(1.0);
-    }
-    scale(cells, force_n, pressure);
-}
-
-/// Scales a pressure to the force; returns the factor.
-fn scale(cells: &Cells, force_n: f64, pressure: &mut [f64]) -> f64 {
-    let factor = force_n / cells.integral(pressure);
-    for p in pressure {
-        *p *= factor;
-    }
-    factor
-}
-
-fn add_wear(wear: &[f64], pressure: &[f64], displacement: &mut [f64]) {
-    for ((u, p), wear) in displacement.iter_mut().zip(pressure).zip(wear) {
-        *u += wear * p;
-    }
-}
-
-/// Sets a field to 0 out of contact, and subtracts as much of a uniform one that it has no resultant.
-fn remove_resultant(pressure: &[f64], uniform: &[f64], field: &mut [f64]) {
-    let part = mean_in_contact(field, pressure) / mean_in_contact(uniform, pressure);
-    for ((value, uniform), p) in field.iter_mut().zip(uniform).zip(pressure) {
-        *value = if *p > 0.0 {
-            *value - part * uniform
-        } else {
-            0.0
-        };
-    }
-}
-
-fn mean_in_contact(field: &[f64], pressure: &[f64]) -> f64 {
-    mean_over_contact(pressure, field.iter().copied())
-}
-
-/// Mean of a field over the cells in contact.
-fn mean_over_contact(pressure: &[f64], field: impl Iterator<Item = f64>) -> f64 {
-    let (mut sum, mut count) = (0.0, 0);
-    for (value, p) in field.zip(pressure) {
-        if *p > 0.0 {
-            sum += value;
-            count += 1;
-        }
-    }
-    sum / real(count.max(1))
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]

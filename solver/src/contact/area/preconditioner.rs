@@ -53,12 +53,7 @@ impl Preconditioner {
     }
 
     /// Takes the wear of an increment at each cell and its mean in contact, mm/MPa, under a pressure that is positive there.
-    pub(super) fn set_wear(
-        &mut self,
-        cells: &Cells,
-        (wear, mean): (&[f64], f64),
-        pressure: &[f64],
-    ) {
+    pub(super) fn set_wear(&mut self, cells: &Cells, wear: &[f64], mean: f64, pressure: &[f64]) {
         let least = least_compliance(cells, self.modulus);
         self.local = differs(wear, pressure, least).then(|| Local::new(wear, least));
         let mean = if self.local.is_some() { 0.0 } else { mean };
@@ -69,7 +64,7 @@ impl Preconditioner {
         }
     }
 
-    /// Whether the wear differs from place to place.
+    /// Checks whether the wear differs from place to place.
     pub(super) fn is_local(&self) -> bool {
         self.local.is_some()
     }
@@ -108,7 +103,7 @@ pub(super) fn least_compliance(cells: &Cells, modulus: f64) -> f64 {
     2.0 * cells.dx_mm.min(cells.dz_mm) / (PI * modulus)
 }
 
-/// Whether the wear differs so much in contact that its mean does not serve.
+/// Checks whether the wear differs so much in contact that its mean does not serve.
 fn differs(wear: &[f64], pressure: &[f64], least_compliance: f64) -> bool {
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for (wear, pressure) in wear.iter().zip(pressure) {

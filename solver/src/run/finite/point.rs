@@ -1,12 +1,13 @@
 //! The run of a point contact: what its reports and snapshots are made of. Profiles and tractions are those of its middle section; maps are
 //! of the whole contact.
 
-use super::Contact;
+use super::contact::Contact;
 use crate::SolveError;
 use crate::checkpoint::{PointRun, Resumable};
 use crate::contact::Work;
 use crate::effects::{Effect, EffectsPlan};
 use crate::electrical::{AreaContact, ContactResistance};
+use crate::interpolation::part_way;
 use crate::number::count;
 use crate::point::{
     DepthMap, Placed, PointError, PointIntegrator, PointScene, PointState, SlipRegime,
@@ -70,11 +71,7 @@ impl Contact for PointIntegrator {
     ) -> Option<impl Fn(f64, Sides<f64>) -> AreaContact + 'a> {
         let (from, to) = (before.last().force_n, after.last().force_n);
         Some(move |part: f64, limits: Sides<f64>| AreaContact {
-            force_n: if part < 1.0 {
-                from + part * (to - from)
-            } else {
-                to
-            },
+            force_n: part_way(from, to, part),
             depths_mm: after.depths_in_contact(part, limits),
         })
     }

@@ -1,7 +1,7 @@
 //! The run of sections along a line, stations or node planes: reports and snapshots are those of the reference section, and of each section
 //! besides.
 
-use super::Contact;
+use super::contact::Contact;
 use crate::SolveError;
 use crate::along_line::{Ending, StationCycle, StationProfile};
 use crate::checkpoint::{FiniteRun, Resumable};

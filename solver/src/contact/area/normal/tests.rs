@@ -235,7 +235,7 @@ fn an_annulus_that_wears_alone_converges_however_much_it_wears() {
         let found = found.expect("the contact has a solution");
         assert!(found.iterations < 40, "{factor}: {found:?}");
         assert!((cells.integral(&pressure) / FORCE_N - 1.0).abs() < 1e-12);
-        // What wears that much carries nothing.
+        // Cells that wear that much carry nothing.
         let carried = pressure.iter().zip(&wear).filter(|(_, wear)| **wear > 0.0);
         let share = carried.map(|(p, _)| p * cells.area_mm2()).sum::<f64>() / FORCE_N;
         assert!(factor < 1e4 || share < 1e-2, "{factor}: {share}");
