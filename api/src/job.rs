@@ -35,7 +35,7 @@ impl Status {
     }
 }
 
-/// What a request that queues jobs again has done.
+/// Effect of a request that queues jobs again.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct RetriedJobs {
     /// Jobs that are queued again.

@@ -8,6 +8,7 @@ mod error;
 mod events;
 mod jobs;
 mod readiness;
+mod specification;
 mod upload;
 mod worker_tokens;
 
@@ -29,6 +30,7 @@ pub use download::Fetched;
 pub use error::ClientError;
 pub use events::Followed;
 pub(crate) use jobs::WrittenId;
+pub use specification::SentSpec;
 
 /// Longest time without a byte of an answer: the service sends a comment into idle streams more often.
 const READ_TIMEOUT: Duration = Duration::from_mins(1);
@@ -38,18 +40,6 @@ const TRIES: u32 = 5;
 const FIRST_PAUSE: Duration = Duration::from_millis(500);
 /// Longest pause that `Retry-After` is followed for.
 const LONGEST_PAUSE: Duration = Duration::from_secs(30);
-
-/// The header that says whether a specification is as it was sent.
-const SPECIFICATION_FORM: &str = "fretwear-specification";
-
-/// The specification of a job.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SentSpec {
-    /// JSON.
-    pub json: String,
-    /// False of a job that was queued before specifications were stored as they were sent: this one is resolved.
-    pub is_as_sent: bool,
-}
 
 /// A client of one service.
 #[derive(Debug, Clone)]
@@ -222,25 +212,6 @@ impl Client {
     /// [`ClientError`].
     pub async fn job(&self, id: Uuid) -> Result<Job, ClientError> {
         self.get(&format!("/v1/jobs/{id}"), &[]).await
-    }
-
-    /// Returns the specification of a job as it was sent.
-    ///
-    /// # Errors
-    /// [`ClientError`].
-    pub async fn sent_spec(&self, id: Uuid) -> Result<SentSpec, ClientError> {
-        let url = self.url(&format!("/v1/jobs/{id}/spec"));
-        repeated(async || {
-            let response = self.send(self.http.get(&url)).await?;
-            let is_as_sent = response
-                .headers()
-                .get(SPECIFICATION_FORM)
-                .is_none_or(|form| form != "resolved");
-            let json = response.text().await;
-            let json = json.map_err(|cause| ClientError::unreachable(&self.base, cause))?;
-            Ok(SentSpec { json, is_as_sent })
-        })
-        .await
     }
 
     fn url(&self, path: &str) -> String {

@@ -33,7 +33,7 @@ pub enum Transition {
     Cancel,
     /// Its worker releases it at a graceful shutdown.
     Release,
-    /// Its worker cannot make the attempt at present, by no fault of the job.
+    /// The worker cannot make the attempt at present, by no fault of the job.
     Decline,
     /// Its worker was lost.
     WorkerLost,

@@ -15,7 +15,7 @@ pub type Accept<'a> = dyn Fn(&Estimate) -> Result<(), Refused> + 'a;
 pub struct Variation {
     /// Its changes against the base specification.
     pub overrides: Changes,
-    /// Its specification as it would be sent, JSON.
+    /// Specification of the variation as it would be sent, JSON.
     pub sent: String,
     /// Its specification.
     pub resolved: Resolved,

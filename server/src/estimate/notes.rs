@@ -43,7 +43,7 @@ pub(crate) fn notes(resolved: &Resolved) -> Vec<String> {
     notes
 }
 
-/// What the stated errors of a crown or a partly sticking point do not hold.
+/// Errors of a crown or a partly sticking point that the stated ones do not hold.
 fn not_in_estimate(resolved: &Resolved) -> Option<String> {
     let scene = &resolved.scene;
     if let Some((across, _)) = crown_half_lengths_mm(scene) {

@@ -124,10 +124,11 @@ impl Service {
         self.send("PUT", path, &[], body).await.0
     }
 
-    /// The same with a token, or without one.
+    /// Sends a request with a token, or without one.
     pub(crate) async fn with_token(
         &self,
-        (method, path): (&str, &str),
+        method: &str,
+        path: &str,
         token: Option<&str>,
         body: &str,
     ) -> (u16, Value) {

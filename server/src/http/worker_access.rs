@@ -97,9 +97,9 @@ mod tests {
             "request": request(10_000, Duration::from_secs(9)),
         });
         let claim = claim.to_string();
-        let claims = ("POST", "/v1/worker/claims");
-        let (_, claimed) = service.with_token(claims, Some(owner), &claim).await;
-        let again = service.with_token(claims, Some(other), &claim).await;
+        let claims = "/v1/worker/claims";
+        let (_, claimed) = (service.with_token("POST", claims, Some(owner), &claim)).await;
+        let again = (service.with_token("POST", claims, Some(other), &claim)).await;
         assert_eq!(again, (200, json!([])));
         json!({"job": claimed[0]["id"], "number": claimed[0]["lease"]})
     }
@@ -168,7 +168,7 @@ mod tests {
         let [owner, other] = tokens;
         for (method, path, body, refused, done) in cases {
             for (token, expected) in [(other, refused), (owner, done)] {
-                let (status, answer) = service.with_token((method, path), Some(token), &body).await;
+                let (status, answer) = service.with_token(method, path, Some(token), &body).await;
                 let answer = if method == "PUT" {
                     json!(status)
                 } else {
@@ -178,7 +178,7 @@ mod tests {
             }
         }
         for token in [None, Some(USERS), Some("token-of-nobody")] {
-            let (status, _) = service.with_token(("GET", &checkpoint), token, "").await;
+            let (status, _) = service.with_token("GET", &checkpoint, token, "").await;
             assert_eq!(status, 401);
         }
     }

@@ -64,7 +64,7 @@ pub(crate) struct SolveCommand<'a> {
     pub(crate) threads: usize,
     /// Memory limit, MB.
     pub(crate) memory_limit_mb: Option<i64>,
-    /// Whether it waits while the disk of the folder is full; otherwise it ends.
+    /// The process waits while the disk of the folder is full; otherwise it ends.
     pub(crate) waits_for_disk: bool,
     /// Whether it gets a process group of its own; otherwise the signals of a terminal reach it too.
     pub(crate) own_group: bool,
@@ -129,7 +129,7 @@ impl Exit {
         self.stderr.starts_with(FAILED_ALLOCATION)
     }
 
-    /// Its last standard error as the end of a sentence.
+    /// Last standard error as the end of a sentence.
     pub(crate) fn details(&self) -> String {
         match self.stderr.as_str() {
             "" => String::new(),

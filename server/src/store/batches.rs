@@ -19,7 +19,7 @@ pub(in crate::store) const JOBS_AT_ONCE: i64 = 100;
 /// Refused combinations that are stored with their reasons: the first ones.
 pub(in crate::store) const STORED_REFUSALS: u64 = 100;
 
-/// What is done with all jobs of a batch, a limited number at once.
+/// End of all jobs of a batch, a limited number at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BatchEnding {
     /// They are cancelled.

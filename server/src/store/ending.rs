@@ -22,9 +22,9 @@ pub(in crate::store) struct Ending {
     pub(in crate::store) outcome: Option<&'static str>,
     /// JSON.
     pub(in crate::store) summary: Option<String>,
-    /// Whether its worker gives it back, which costs no attempt.
+    /// The worker gives the job back, which costs no attempt.
     pub(in crate::store) is_released: bool,
-    /// Whether its next attempt is left to another worker, if there is one.
+    /// The next attempt is left to another worker, if there is one.
     pub(in crate::store) is_left: bool,
     /// The document of the event `done`, for a job that ends.
     pub(in crate::store) done: Option<String>,

@@ -175,7 +175,7 @@ pub enum StoreError {
     NoFile {
         /// The file.
         name: String,
-        /// What is wrong.
+        /// Cause of the refusal.
         cause: IntegrityError,
     },
     /// The database has not answered in time.

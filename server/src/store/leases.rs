@@ -94,7 +94,7 @@ pub struct Claim {
 }
 
 impl Claim {
-    /// Whether the job had no lease before.
+    /// Checks whether the job had no lease before.
     pub fn is_first(&self) -> bool {
         self.lease < 2 * SMALLEST_STEP
     }

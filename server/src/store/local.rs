@@ -112,7 +112,8 @@ impl Local {
     /// requested, if the job is held: it is a repeated one; or a gap shows that the database has lost writes, and with them the lease.
     pub(in crate::store) fn written_before(
         &self,
-        (lease, number): (Lease, i64),
+        lease: Lease,
+        number: i64,
         held: Option<(i64, bool)>,
     ) -> LeaseState {
         match held {

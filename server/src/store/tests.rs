@@ -46,6 +46,7 @@ mod object_names;
 mod objects;
 mod order;
 mod pages;
+mod place;
 mod retention;
 mod roles;
 pub(crate) mod sent_specifications;
@@ -75,6 +76,7 @@ use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::spec;
 
 pub(crate) use super::sqlite::tests::{fill_disk, hold_write_lock};
+pub(crate) use place::Place;
 
 /// Operations with defaults that only tests use.
 impl Store {
@@ -176,34 +178,6 @@ pub(in crate::store) fn numbered(lease: impl Into<Lease>, update: JobUpdate) -> 
     JobUpdate {
         number: *number,
         ..update
-    }
-}
-
-/// An empty database, and a folder.
-pub(crate) struct Place {
-    pub(crate) folder: TempDir,
-    pub(crate) url: String,
-}
-
-impl Place {
-    /// In a file in the folder.
-    pub(crate) fn sqlite() -> Self {
-        let folder = TempDir::new().expect("a temporary folder");
-        let url = format!("sqlite://{}", folder.path().join("test.db").display());
-        Self { folder, url }
-    }
-
-    /// In a server that the tests share.
-    pub(crate) fn postgres() -> Self {
-        Self {
-            folder: TempDir::new().expect("a temporary folder"),
-            url: postgres::PostgresServer::shared().new_database(),
-        }
-    }
-
-    /// Where large results are.
-    pub(crate) fn files(&self) -> PathBuf {
-        self.folder.path().join("test.db")
     }
 }
 

@@ -9,7 +9,7 @@ use crate::store::block::{BlockError, EncodedBlock};
 /// Length of a SHA-256, hexadecimal digits.
 const SHA256_DIGITS: usize = 64;
 
-/// What is wrong with an update.
+/// Fault of an update.
 #[derive(Debug, thiserror::Error)]
 pub enum UpdateFault {
     /// The name of a file leads out of its folder, or cannot be that of a file.

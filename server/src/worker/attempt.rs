@@ -68,7 +68,7 @@ impl<E: Employer> Attempt<'_, E> {
             match retry_unless(record, is_final).await {
                 Ok(LeaseState::Held { .. }) => {}
                 Ok(LeaseState::Lost) => return Ok(()),
-                // What was to be recorded of a cancelled job is lost, the job ends: by the write that follows the last one recorded.
+                // The rest of a cancelled job is not recorded; the job ends by the write that follows the last one recorded.
                 Err(error) if is_final(&error) => {
                     number = update.number;
                     break;

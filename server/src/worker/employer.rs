@@ -86,7 +86,7 @@ impl EmployerError {
 
 /// Whom a worker works for.
 pub trait Employer: Send + Sync + 'static {
-    /// Whether attempts write to the disk of the database, which all jobs wait for while it is full. From another disk a job is given back.
+    /// Attempts write to the disk of the database, which all jobs wait for while it is full. From another disk a job is given back.
     const WAITS_FOR_DISK: bool;
 
     /// Claims jobs. A repeated request gets the same ones.

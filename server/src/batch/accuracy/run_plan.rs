@@ -52,13 +52,13 @@ pub struct Base<'a> {
 /// A planned run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlannedRun {
-    /// Its accuracy setting.
+    /// Accuracy setting.
     pub accuracy: RunAccuracy,
-    /// Its specification as it would be sent, JSON.
+    /// Specification of the run as it would be sent, JSON.
     pub sent: String,
-    /// Its specification.
+    /// Resolved specification.
     pub resolved: Resolved,
-    /// Its estimate.
+    /// Estimate of the run.
     pub estimate: Estimate,
     /// Expected processor seconds.
     pub expected_s: f64,
@@ -86,7 +86,7 @@ impl RunPlan {
         budget_s: f64,
         accept: &Accept<'_>,
     ) -> Result<Self, RunPlanError> {
-        let planned = |accuracy| plan_run((base, accuracy), machine, accept);
+        let planned = |accuracy| plan_run(base, accuracy, machine, accept);
         let mut chosen = Chosen::default();
         for tolerance in TOLERANCES {
             let most_s = TOLERANCE_SHARE * EXPECTED_SHARE * budget_s;
@@ -110,7 +110,8 @@ type Planned = Result<PlannedRun, Refused>;
 
 /// Plans a run at another accuracy.
 fn plan_run(
-    (base, accuracy): (Base<'_>, RunAccuracy),
+    base: Base<'_>,
+    accuracy: RunAccuracy,
     machine: &MachineFigures,
     accept: &Accept<'_>,
 ) -> Planned {

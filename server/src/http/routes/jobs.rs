@@ -3,6 +3,7 @@
 pub(crate) mod cancel;
 pub(crate) mod delete;
 pub(crate) mod feed;
+mod filter;
 pub(crate) mod list;
 pub(crate) mod list_labels;
 pub(crate) mod plan;

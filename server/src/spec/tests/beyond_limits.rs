@@ -10,7 +10,7 @@ fn warned(text: &str, effect: &str) -> Option<String> {
     found.map(|fault| fault.detail)
 }
 
-/// What the plan says about an effect.
+/// Reason of the plan for its decision about an effect.
 fn reason(text: &str, effect: &str) -> String {
     let plan = solver::effects::plan(&accepted(text).scene);
     let mut decisions = plan.decisions.into_iter();

@@ -60,7 +60,7 @@ fn begin(resolved: &Resolved) -> Result<(), SolveError> {
     Ok(())
 }
 
-/// What became of specifications.
+/// Counts of specifications by their result.
 #[derive(Default)]
 struct Tally {
     accepted: usize,

@@ -126,7 +126,7 @@ impl PostgresStore {
     }
 }
 
-/// Whether jobs of a batch wait, run or are still to be queued.
+/// Checks whether jobs of a batch wait, run or are still to be queued.
 async fn is_active(connection: &mut PgConnection, batch: Uuid) -> Result<bool, StoreError> {
     let is_active = sqlx::query_scalar(
         "SELECT EXISTS (SELECT 1 FROM jobs WHERE sweep_id = $1 AND status IN ('queued', 'running')) \

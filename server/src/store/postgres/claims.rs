@@ -118,7 +118,7 @@ async fn claim_for(
     };
     let (mut admitted, mut reasons) = (Vec::new(), HashMap::new());
     for index in fresh {
-        for id in admit_for(&requests[index], (&mut waiting, &there), &mut reasons, now) {
+        for id in admit_for(&requests[index], &mut waiting, &there, &mut reasons, now) {
             admitted.push((id, index));
         }
     }
@@ -173,7 +173,8 @@ async fn able_workers(connection: &mut PgConnection, now: Now) -> Result<Vec<Uui
 /// take others.
 fn admit_for(
     request: &ClaimRequest,
-    (waiting, there): (&mut Vec<Candidate>, &[Uuid]),
+    waiting: &mut Vec<Candidate>,
+    there: &[Uuid],
     reasons: &mut HashMap<Uuid, String>,
     now: Now,
 ) -> Vec<Uuid> {

@@ -159,7 +159,7 @@ impl PostgresStore {
         .await?;
         let Some((event, cancel_requested, attempt)) = restarted else {
             let held = held(&mut transaction, lease).await?;
-            return Ok(self.local.written_before((lease, number), held));
+            return Ok(self.local.written_before(lease, number, held));
         };
         let attempt = attempt.try_into().unwrap_or_default();
         checkpoints::delete_results_after(&mut transaction, lease.job, None).await?;

@@ -226,7 +226,7 @@ async fn migrate(options: &PgConnectOptions) -> Result<(), StoreError> {
     .execute(&mut *transaction)
     .await?;
     if restored.rows_affected() > 0 {
-        // Its workers may have written more to the original.
+        // Workers of the original may have written more to it.
         sqlx::query(
             "UPDATE jobs SET lease = lease + $1, lease_expires_at = $2 WHERE status = 'running'",
         )

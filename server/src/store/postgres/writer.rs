@@ -169,7 +169,7 @@ async fn lock<'a>(
     Ok((held.collect(), now.into()))
 }
 
-/// What earlier writes of the same numbers have led to; none where the lease was lost, as after a gap in the numbers.
+/// Effects of earlier writes of the same numbers; none where the lease was lost, as after a gap in the numbers.
 async fn effects_before(
     connection: &mut PgConnection,
     writes: &[&Write],

@@ -2,20 +2,28 @@
 //!
 //! A backup is a folder with `fretwear.db` and `fretwear.db.results`, which can be served as it is.
 
+mod database;
+mod disk;
+mod files;
+
 use std::path::Path;
 
-use api::results::ResultFile;
-use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
-use sqlx::{ConnectOptions, Connection, Row};
+use sqlx::sqlite::SqliteConnection;
+use sqlx::{ConnectOptions, Connection};
 
 use crate::export::files::{create_folder, parent};
 use crate::store::folder::{Folder, beside};
 use crate::store::leases::ENDED_BY_RESTORE;
-use crate::store::rows::entry;
 use crate::store::sqlite::identity::schema_version;
 use crate::store::sqlite::moved_meanwhile::take_moved;
 use crate::store::sqlite::open::{lock, options};
-use crate::store::{BackupError, CopySummary, IntegrityError, Lease, integrity};
+use crate::store::{BackupError, CopySummary, Lease};
+
+use database::has_marks;
+use disk::{absent, file, sync};
+use files::{Damage, copy_files};
+
+pub(super) use database::{at, check_integrity};
 
 /// File name of the database in a backup.
 const NAME: &str = "fretwear.db";
@@ -236,129 +244,4 @@ async fn copy_backup(source: &Path, target: &Path) -> Result<CopySummary, Backup
     // The rename is durable once the folder is synced.
     sync(parent(target))?;
     Ok(copied)
-}
-
-/// A file that differs from its entry.
-#[derive(Debug)]
-struct Damage {
-    place: String,
-    cause: IntegrityError,
-    /// Whether its entry says so.
-    is_known: bool,
-}
-
-/// Checks a database and copies the files that it names. Also returns the damaged ones.
-async fn copy_files(
-    database: &Path,
-    from: &Folder,
-    to: &Folder,
-) -> Result<(CopySummary, Vec<Damage>), BackupError> {
-    let mut connection = at(database).read_only(true).connect().await?;
-    check_integrity(database, &mut connection).await?;
-    let jobs = sqlx::query_scalar("SELECT count(*) FROM jobs")
-        .fetch_one(&mut connection)
-        .await?;
-    let has_marks = has_marks(&mut connection).await?;
-    let query = if has_marks {
-        "SELECT name, cycle, media_type, bytes, sha256, damaged, place FROM result_files \
-         WHERE place IS NOT NULL ORDER BY place"
-    } else {
-        "SELECT name, cycle, media_type, bytes, sha256, NULL AS damaged, place FROM result_files \
-         WHERE place IS NOT NULL ORDER BY place"
-    };
-    let rows = sqlx::query(query).fetch_all(&mut connection).await?;
-    connection.close().await?;
-    let mut copied = CopySummary {
-        jobs,
-        ..CopySummary::default()
-    };
-    let mut damages = Vec::new();
-    for row in rows {
-        let (entry, place) = (entry(&row)?, row.try_get::<String, _>("place")?);
-        let (Some(source), Some(target)) = (from.path(&place), to.path(&place)) else {
-            return Err(BackupError::Place(place));
-        };
-        match copy_file(&source, &target, &entry)? {
-            Ok(()) => {
-                copied.files += 1;
-                copied.file_bytes += entry.bytes;
-            }
-            Err(cause) => damages.push(Damage {
-                place,
-                cause,
-                // A backup of an earlier version cannot say so.
-                is_known: entry.damaged.is_some() || !has_marks,
-            }),
-        }
-    }
-    Ok((copied, damages))
-}
-
-/// Copies a file, if it exists, and checks it.
-fn copy_file(
-    source: &Path,
-    target: &Path,
-    entry: &ResultFile,
-) -> Result<Result<(), IntegrityError>, BackupError> {
-    let checked = integrity::check_file(entry, source);
-    if let Err(IntegrityError::Missing) = checked {
-        return Ok(checked);
-    }
-    let folder = parent(target);
-    create_folder(folder).map_err(|cause| file(folder, cause))?;
-    std::fs::copy(source, target).map_err(|cause| file(source, cause))?;
-    sync(target)?;
-    sync(folder)?;
-    // What was written is what counts.
-    Ok(checked.and_then(|()| integrity::check_file(entry, target)))
-}
-
-/// Whether a database can mark damaged files: those of earlier versions cannot.
-async fn has_marks(connection: &mut SqliteConnection) -> Result<bool, BackupError> {
-    let columns: i64 = sqlx::query_scalar(
-        "SELECT count(*) FROM pragma_table_info('result_files') WHERE name = 'damaged'",
-    )
-    .fetch_one(connection)
-    .await?;
-    Ok(columns > 0)
-}
-
-/// Checks that a database is not damaged.
-pub(super) async fn check_integrity(
-    path: &Path,
-    connection: &mut SqliteConnection,
-) -> Result<(), BackupError> {
-    let found: String = sqlx::query_scalar("PRAGMA integrity_check(1)")
-        .fetch_one(connection)
-        .await?;
-    if found != "ok" {
-        let path = path.to_owned();
-        return Err(BackupError::Damaged { path, found });
-    }
-    Ok(())
-}
-
-/// Options to connect to a database file.
-pub(super) fn at(path: &Path) -> SqliteConnectOptions {
-    SqliteConnectOptions::new().filename(path)
-}
-
-fn absent(path: &Path) -> Result<(), BackupError> {
-    if path.exists() {
-        return Err(BackupError::Exists(path.to_owned()));
-    }
-    Ok(())
-}
-
-fn sync(path: &Path) -> Result<(), BackupError> {
-    std::fs::File::open(path)
-        .and_then(|opened| opened.sync_all())
-        .map_err(|cause| file(path, cause))
-}
-
-fn file(path: &Path, cause: std::io::Error) -> BackupError {
-    BackupError::File {
-        path: path.to_owned(),
-        cause,
-    }
 }

@@ -137,7 +137,7 @@ impl SqliteStore {
     }
 }
 
-/// Whether jobs of a batch wait, run or are still to be queued.
+/// Checks whether jobs of a batch wait, run or are still to be queued.
 async fn is_active(
     transaction: &mut Transaction<'_, Sqlite>,
     batch: Uuid,

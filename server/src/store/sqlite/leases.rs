@@ -80,7 +80,7 @@ impl SqliteStore {
         .bind(lease.number)
         .fetch_optional(&mut **transaction)
         .await?;
-        Ok(self.local.written_before((lease, number), held))
+        Ok(self.local.written_before(lease, number, held))
     }
 
     pub(in crate::store) async fn renew(

@@ -52,7 +52,7 @@ impl Fixture {
         noted.expect("the store")
     }
 
-    /// What the service does until nothing is left.
+    /// Ends the jobs of noted batches, as the service does, until none is left.
     async fn ended_jobs_of_batches(&self) {
         while self.store.end_jobs_of_batches().await.expect("the store") {}
         let left = self.store.batch_endings().await;

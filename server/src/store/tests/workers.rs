@@ -143,7 +143,7 @@ async fn a_job_that_a_worker_has_given_up_is_left_to_another_one_for_a_while(fix
     ];
     let mut now = 1_000_000;
     for (transition, there, waited, is_left) in cases {
-        // Those of the case before are away.
+        // Workers of the case before are away.
         now += 2 * 3_600_000;
         fixture.store.set_clock(now);
         let id = fixture.queued().await;

@@ -1,8 +1,10 @@
 //! A remote service as an employer, over HTTP.
 
-use std::collections::HashMap;
+mod heartbeat;
+mod options;
+
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::Arc;
 use std::time::Duration;
 
 use api::job::Status;
@@ -10,9 +12,7 @@ use api::problem::Problem;
 use api::service::Demand;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use tokio::time::MissedTickBehavior;
 use tokio_util::task::AbortOnDropHandle;
-use uuid::Uuid;
 
 use super::{Employer, EmployerError};
 use crate::client::{Client, ClientError};
@@ -22,19 +22,14 @@ use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::{
     Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, NewFile, Write, WriteKind,
 };
-use crate::worker::health::WorkerHealth;
-use crate::worker::protocol::{
-    ClaimBody, LeasesBody, MOST_LEASES, PROGRAM, RestartBody, Taken, WriteAnswer,
-};
+use crate::worker::protocol::{ClaimBody, PROGRAM, RestartBody, Taken, WriteAnswer};
+
+use heartbeat::{Leases, beat, held};
+
+pub use options::RemoteOptions;
 
 /// Where writes are sent.
 const WRITES: &str = "/v1/worker/writes";
-
-/// Interval of the heartbeat of all jobs of a worker, which also brings cancel requests.
-const HEARTBEAT: Duration = Duration::from_secs(2);
-
-/// Leases of this worker, and their states by the last answers of the service.
-type Leases = Arc<Mutex<HashMap<Lease, LeaseState>>>;
 
 /// Why a write has no answer to a request of several.
 #[derive(Debug, Clone)]
@@ -43,25 +38,6 @@ enum NotSent {
     Alone,
     /// The service was not reached, and would not be by a request with one of them.
     Unreachable { url: String, cause: String },
-}
-
-/// A process with workers, and the service that they work for.
-#[derive(Debug, Clone)]
-pub struct RemoteOptions {
-    /// Reaches the service.
-    pub client: Client,
-    /// The process.
-    pub worker: Uuid,
-    /// Health of its workers.
-    pub health: Arc<WorkerHealth>,
-    /// Number of jobs that are solved at once.
-    pub slots: usize,
-    /// Folder of the files of attempts until they are sent.
-    pub scratch: PathBuf,
-    /// For how long leases are renewed.
-    pub lease: Duration,
-    /// How long a claim waits for a job.
-    pub wait: Duration,
 }
 
 /// A remote service.
@@ -306,65 +282,10 @@ fn unexpected(answer: WriteAnswer) -> EmployerError {
     }
 }
 
-/// Renews all leases, in one request unless they are too many, and reports the health of the workers, until its task is aborted.
-async fn beat(options: RemoteOptions, leases: Leases) {
-    let mut timer = tokio::time::interval(HEARTBEAT);
-    timer.set_missed_tick_behavior(MissedTickBehavior::Delay);
-    let (mut failures, mut was_failing) = (0_u32, false);
-    loop {
-        timer.tick().await;
-        let failing = options.health.failing();
-        let all: Vec<_> = held(&leases).keys().copied().collect();
-        let mut parts: Vec<_> = all.chunks(MOST_LEASES).collect();
-        if parts.is_empty() && (failing.is_some() || was_failing) {
-            parts.push(&[]);
-        }
-        was_failing = failing.is_some();
-        for part in parts {
-            match renew(&options, part, failing.clone()).await {
-                Ok(states) => {
-                    failures = 0;
-                    let mut known = held(&leases);
-                    for (lease, state) in part.iter().zip(states) {
-                        // It may have ended meanwhile.
-                        known.entry(*lease).and_modify(|known| *known = state);
-                    }
-                }
-                Err(error) => {
-                    failures += 1;
-                    // Seldom while the service is away.
-                    if failures.is_power_of_two() {
-                        tracing::warn!(%error, failures, "leases could not be renewed");
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// Renews leases; returns their states.
-async fn renew(
-    options: &RemoteOptions,
-    leases: &[Lease],
-    failing: Option<String>,
-) -> Result<Vec<LeaseState>, ClientError> {
-    let body = LeasesBody {
-        worker: options.worker,
-        leases: leases.to_vec(),
-        length: options.lease,
-        failing,
-    };
-    options.client.post("/v1/worker/leases", &body).await
-}
-
 /// Name of this machine; empty where it has none.
 fn host() -> String {
     let name = nix::unistd::gethostname();
     name.ok()
         .and_then(|name| name.into_string().ok())
         .unwrap_or_default()
-}
-
-fn held(leases: &Leases) -> MutexGuard<'_, HashMap<Lease, LeaseState>> {
-    leases.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -4,6 +4,7 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 use api::service::Demand;
+use tokio::task::JoinHandle;
 
 use super::*;
 use crate::metrics::Busy;
@@ -21,7 +22,7 @@ use crate::worker::config::RETRY;
 struct Failing {
     folder: PathBuf,
     waits: bool,
-    /// Whether no claim has an answer.
+    /// No claim has an answer.
     is_away: bool,
     writes: Writes,
     finished: Mutex<Vec<Transition>>,
@@ -30,7 +31,7 @@ struct Failing {
     abandoned: Mutex<Vec<Lease>>,
 }
 
-/// What becomes of writes.
+/// Effect of writes.
 #[derive(Debug, Default, PartialEq, Eq)]
 enum Writes {
     #[default]
@@ -199,20 +200,28 @@ async fn short_jobs_that_were_claimed_together_go_back_together() {
     assert!(futures_util::poll!(&mut second).is_pending());
 }
 
+/// Starts the workers of one process.
+fn eight_workers(
+    employer: &Arc<Failing>,
+    stopping: &CancellationToken,
+) -> Vec<JoinHandle<Result<(), EmployerError>>> {
+    let process = Arc::new(WorkerProcess::new(1_000, true));
+    let config = Arc::new(WorkerConfig::new(PathBuf::from("/nowhere")));
+    let start = |_| {
+        let shared = (Arc::clone(&process), Arc::clone(&config));
+        tokio::spawn(work(Arc::clone(employer), shared, stopping.clone()))
+    };
+    (0..8).map(start).collect()
+}
+
 #[tokio::test]
 async fn workers_of_a_process_pause_together_while_the_employer_is_away() {
     let employer = Arc::new(Failing {
         is_away: true,
         ..Failing::default()
     });
-    let process = Arc::new(WorkerProcess::new(1_000, true));
-    let config = Arc::new(WorkerConfig::new(PathBuf::from("/nowhere")));
     let stopping = CancellationToken::new();
-    let start = |_| {
-        let shared = (Arc::clone(&process), Arc::clone(&config));
-        tokio::spawn(work(Arc::clone(&employer), shared, stopping.clone()))
-    };
-    let workers: Vec<_> = (0..8).map(start).collect();
+    let workers = eight_workers(&employer, &stopping);
     while employer.asked.lock().expect("no panic").len() < 3 {
         tokio::time::sleep(Duration::from_millis(10)).await;
     }
@@ -234,14 +243,8 @@ async fn workers_that_wait_for_a_job_stop_and_ask_what_their_request_has_claimed
         waits: true,
         ..Failing::default()
     });
-    let process = Arc::new(WorkerProcess::new(1_000, true));
-    let config = Arc::new(WorkerConfig::new(PathBuf::from("/nowhere")));
     let stopping = CancellationToken::new();
-    let start = |_| {
-        let shared = (Arc::clone(&process), Arc::clone(&config));
-        tokio::spawn(work(Arc::clone(&employer), shared, stopping.clone()))
-    };
-    let workers: Vec<_> = (0..8).map(start).collect();
+    let workers = eight_workers(&employer, &stopping);
     while employer.asked.lock().expect("no panic").is_empty() {
         tokio::task::yield_now().await;
     }

@@ -2,55 +2,31 @@
 
 use std::ops::RangeInclusive;
 
-use api::job::{JobList, ListedJob, Status};
-use api::spec::{StringEnum, SystemKind};
+use api::job::{JobList, ListedJob};
 use axum::Json;
 use axum::extract::State;
-use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
-use uuid::Uuid;
 
 use crate::http::app::App;
 use crate::http::extract::Params;
 use crate::http::paging::{Page, PageError};
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
-use crate::spec;
+use crate::http::routes::jobs::filter::{FILTERS, FilterError, FilterQuery, filter_among};
 use crate::store::{Filter, ListPlace, Listed, Order, OrderKey};
 use crate::text::shortened;
 
 /// Times that a page token can hold, ms since 1970: differences of them are numbers of every database.
 const TIMES_MS: RangeInclusive<i64> = 0..=1 << 53;
-/// Maximum number of labels of a filter.
-const MAX_LABELS: usize = 16;
-
-/// Longest text that is searched for, characters.
-const MAX_TEXT: usize = 200;
-
 /// Error of a query parameter.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum ListError {
-    /// Not a status.
-    #[error("`{0}` is not a status; statuses are {1}")]
-    Status(String, String),
+    /// A parameter of the filter is not valid.
+    #[error(transparent)]
+    Filter(#[from] FilterError),
     /// Not a parameter.
     #[error("`{0}` is not a parameter; parameters are {1}")]
     Unknown(String, String),
-    /// Given twice.
-    #[error("`{0}` is given twice")]
-    Twice(String),
-    /// Not a time.
-    #[error("`{0}` is not a time such as 2026-01-31T12:00:00Z")]
-    Time(String),
-    /// Not the id of a sweep.
-    #[error("`{0}` is not the id of a sweep")]
-    Sweep(String),
-    /// Not a kind of system.
-    #[error("`{0}` is not a kind of system; kinds are {1}")]
-    System(String, String),
-    /// No text, or too long a one.
-    #[error("a text has 1 to {MAX_TEXT} characters, not {0}")]
-    Text(usize),
     /// Not a view.
     #[error("`{0}` is not a view; views are short and full")]
     View(String),
@@ -60,21 +36,12 @@ pub(crate) enum ListError {
     /// Neither true nor false.
     #[error("`total` is true or false, not `{0}`")]
     Total(String),
-    /// Too many labels.
-    #[error("a filter can have {MAX_LABELS} labels, not {0}")]
-    Labels(usize),
-    /// Not a label.
-    #[error("`{0}` is not a label such as key:value")]
-    Label(String),
 }
 
 impl RouteError for ListError {
     const TYPE: ProblemType = ProblemType::INVALID_QUERY;
 }
 
-/// Names of the parameters of a filter.
-pub(super) const FILTERS: &str =
-    "status, system, label, created_from, created_before, sweep and text";
 /// Names of the further parameters of a list.
 const PAGES: &str = "sort, total, view, limit and page_token";
 
@@ -89,31 +56,6 @@ const ORDERS: [(&str, OrderKey); 8] = [
     ("life", OrderKey::Life),
     ("duration", OrderKey::Duration),
 ];
-
-/// Filters; a job passes all of them.
-#[derive(Debug, Default, IntoParams)]
-#[into_params(parameter_in = Query)]
-#[expect(
-    dead_code,
-    reason = "only describes the parameters, which are parsed one by one because labels repeat"
-)]
-pub(crate) struct FilterQuery {
-    /// Any of these statuses, separated by commas.
-    status: Option<String>,
-    /// This kind of system.
-    system: Option<SystemKind>,
-    /// This label, as `key:value`; can be repeated, for jobs that have all of them.
-    label: Option<Vec<String>>,
-    /// Accepted at this time (RFC 3339) or later.
-    created_from: Option<String>,
-    /// Accepted before this time (RFC 3339).
-    created_before: Option<String>,
-    /// Jobs of this sweep.
-    sweep: Option<Uuid>,
-    /// In the name, the value of a label or the id, whatever the case of ASCII letters.
-    #[param(min_length = 1, max_length = 200)]
-    text: Option<String>,
-}
 
 /// Order and page of a list.
 #[derive(Debug, Default, IntoParams)]
@@ -257,45 +199,6 @@ fn parse(pairs: &[(String, String)]) -> Result<ParsedQuery<'_>, ListError> {
     Ok(query)
 }
 
-/// Parses the parameters that filter jobs; returns the others.
-pub(super) fn filter_among<'a>(
-    pairs: &'a [(String, String)],
-    filter: &mut Filter,
-) -> Result<Vec<(&'a str, &'a str)>, ListError> {
-    let mut others = Vec::new();
-    for (index, (name, value)) in pairs.iter().enumerate() {
-        let twice = pairs[..index].iter().any(|(earlier, _)| earlier == name);
-        if twice && name != "label" {
-            return Err(ListError::Twice(shortened(name)));
-        }
-        match name.as_str() {
-            "status" => filter.statuses = statuses(value)?,
-            "system" => filter.system = Some(system(value)?),
-            "label" => filter.labels.push(label(value)?),
-            "created_from" => filter.created_from = Some(time(value)?),
-            "created_before" => filter.created_before = Some(time(value)?),
-            "sweep" => {
-                let id = Uuid::parse_str(value);
-                filter.sweep = Some(id.map_err(|_| ListError::Sweep(shortened(value)))?);
-            }
-            "text" => filter.text = Some(text(value)?),
-            name => others.push((name, value.as_str())),
-        }
-    }
-    if filter.labels.len() > MAX_LABELS {
-        return Err(ListError::Labels(filter.labels.len()));
-    }
-    Ok(others)
-}
-
-fn text(value: &str) -> Result<String, ListError> {
-    let length = value.chars().count();
-    if length == 0 || length > MAX_TEXT {
-        return Err(ListError::Text(length));
-    }
-    Ok(value.to_owned())
-}
-
 fn order(name: &str) -> Result<Order, ListError> {
     let (key, descending) = match name.strip_prefix('-') {
         Some(key) => (key, true),
@@ -315,43 +218,6 @@ fn view(name: &str) -> Result<View, ListError> {
         "full" => Ok(View::Full),
         _ => Err(ListError::View(shortened(name))),
     }
-}
-
-fn statuses(list: &str) -> Result<Vec<Status>, ListError> {
-    let status = |name| {
-        Status::from_name(name)
-            .ok_or_else(|| ListError::Status(shortened(name), known::<Status>(name)))
-    };
-    list.split(',').map(status).collect()
-}
-
-fn system(name: &str) -> Result<String, ListError> {
-    if SystemKind::NAMES.contains(&name) {
-        return Ok(name.to_owned());
-    }
-    Err(ListError::System(
-        shortened(name),
-        known::<SystemKind>(name),
-    ))
-}
-
-/// The names of an enum, and the one that was probably meant.
-fn known<T: StringEnum>(name: &str) -> String {
-    let meant = spec::did_you_mean(name, T::NAMES.iter().copied());
-    T::NAMES.join(", ") + &meant
-}
-
-fn time(text: &str) -> Result<i64, ListError> {
-    text.parse::<Timestamp>()
-        .map(Timestamp::as_millisecond)
-        .map_err(|_| ListError::Time(shortened(text)))
-}
-
-fn label(text: &str) -> Result<(String, String), ListError> {
-    let (key, value) = text
-        .split_once(':')
-        .ok_or_else(|| ListError::Label(shortened(text)))?;
-    Ok((key.to_owned(), value.to_owned()))
 }
 
 #[cfg(test)]

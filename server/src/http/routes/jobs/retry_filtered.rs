@@ -10,7 +10,7 @@ use axum::http::StatusCode;
 use crate::http::app::App;
 use crate::http::extract::Params;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
-use crate::http::routes::jobs::list::{FILTERS, FilterQuery, ListError, filter_among};
+use crate::http::routes::jobs::filter::{FILTERS, FilterError, FilterQuery, filter_among};
 use crate::store::Filter;
 use crate::text::shortened;
 
@@ -19,7 +19,10 @@ use crate::text::shortened;
 pub(crate) enum RetryError {
     /// A parameter is not valid.
     #[error(transparent)]
-    Parameter(#[from] ListError),
+    Parameter(#[from] FilterError),
+    /// Not a parameter.
+    #[error("`{0}` is not a parameter; parameters are {FILTERS}")]
+    Unknown(String),
     /// Without a filter it would be all jobs that have ever failed.
     #[error("a filter is needed, such as status=failed; parameters are {FILTERS}")]
     NoFilter,
@@ -57,7 +60,7 @@ pub(crate) async fn retry_filtered(
 fn parse(pairs: &[(String, String)]) -> Result<Filter, RetryError> {
     let mut filter = Filter::default();
     if let Some((name, _)) = filter_among(pairs, &mut filter)?.first() {
-        return Err(ListError::Unknown(shortened(name), FILTERS.to_owned()).into());
+        return Err(RetryError::Unknown(shortened(name)));
     }
     if pairs.is_empty() {
         return Err(RetryError::NoFilter);
