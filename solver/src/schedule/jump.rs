@@ -35,6 +35,11 @@ const REJECTED: f64 = 3.0;
 /// one by one leave an error of their own in jumps of any length. Arbitrary.
 const SHORTEST_REJECTED: f64 = 0.01;
 
+/// Least jump over the cycles done and the tolerance. Where a soft layer comes to be exposed under a hard one, the wear of the nodes at its
+/// edge changes in jumps of any length, and the error does not fall with the jump. Measured in eight random plated lives to base metal at 2 %:
+/// lives differ by less than 4e-5 from those without it, for a fifth to the whole of the time.
+const LEAST_OF_DONE: f64 = 0.05;
+
 /// Largest relative change of a coefficient of friction by cycle within a jump, over the tolerance. A jump takes the mean of its
 /// cycles, so that energy and wear are exact to the second order in it, and the reported contact is off by half of it.
 const CHANGE_OF_FRICTION: f64 = 1.0;
@@ -266,7 +271,8 @@ impl JumpControl {
         let longest = most * self.base.max(self.unshortened);
         let target = (self.base * allowed / self.error).clamp(least * self.base, longest);
         let most = stroke.most(accuracy, self.done);
-        let target = target.min(most).max(1.0);
+        let floor = LEAST_OF_DONE * accuracy.tolerance / finer * real_cycles(self.done);
+        let target = target.max(floor).min(most).max(1.0);
         self.unshortened = target;
         let short = if stroke.gross && !stroke.is_groove {
             cycles_at_least(most / accuracy.tuning.gross_taper)

@@ -165,3 +165,27 @@ fn a_fixed_jump_stops_at_what_remains() {
     assert_eq!(JumpControl::default().next(&fixed, STROKE, 250), 100);
     assert_eq!(JumpControl::default().next(&fixed, STROKE, 50), 50);
 }
+
+#[test]
+fn an_error_that_does_not_fall_with_the_jump_does_not_shrink_jumps_to_single_cycles() {
+    let stroke = Stroke {
+        cycles: 1_000_000,
+        ..STROKE
+    };
+    let mut control = JumpControl::default();
+    let (mut done, mut depth, mut computed) = (0, 0.0, 0);
+    while done < 100_000 {
+        let jump = control.next(&ACCURACY, stroke, 1_000_000 - done);
+        // Two rates by turns, whatever the jump.
+        let rate = if done > 1_000 && computed % 2 == 0 {
+            2.0
+        } else {
+            1.0
+        };
+        let after = depth + rate * real_cycles(jump);
+        wear(&mut control, depth, after, jump);
+        (done, depth, computed) = (done + jump, after, computed + 1);
+    }
+    // 0.05 times 2 % of the cycles done.
+    assert!((97..105).contains(&control.last), "{}", control.last);
+}
