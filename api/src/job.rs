@@ -59,8 +59,11 @@ pub struct Progress {
     pub cycles: u64,
     /// `cycle / cycles`, 0 to 1.
     pub fraction: f64,
-    /// Estimated remaining time, s, from the speed so far.
+    /// Likely remaining time, s, from the speed so far.
     pub eta_s: Option<f64>,
+    /// Remaining time, s, that is enough in nine of ten cases: also if the run restarts on finer settings.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub eta_most_s: Option<f64>,
     /// Time of the last report of the solve (RFC 3339); an old one indicates a job that hangs.
     #[schema(format = DateTime)]
     pub updated_at: Option<String>,

@@ -141,9 +141,9 @@ pub struct Plan {
     #[serde(deserialize_with = "effects")]
     pub effects: Vec<PlannedEffect>,
     /// Values by name with unit: closed-form results for the unworn contact, and estimates of the solve: unknowns,
-    /// memory, output, computed cycles, increments, and processor seconds (`cpu_s`), which are absent until the machine
-    /// is calibrated and if that fails. A plan that is asked for also estimates what the solve takes if it turns out to be
-    /// outside of its tolerance and restarts with its costliest setting as fine as a restart makes it (`cpu_s_with_restart`).
+    /// memory, output, computed cycles, increments, and processor seconds: likely (`cpu_s`) and enough in nine of ten cases
+    /// (`cpu_s_most`), also if the run restarts because it is outside of its tolerance. Both are absent until the machine is
+    /// calibrated and if that fails.
     pub estimates: BTreeMap<String, f64>,
     /// How the motion was derived from a vibration, a thermal cycle or an insertion.
     #[serde(default, skip_serializing_if = "Option::is_none")]

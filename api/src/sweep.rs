@@ -34,6 +34,16 @@ pub struct SweepRequest {
     pub list: Option<Vec<Changes>>,
 }
 
+/// What a sweep is expected to take.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct SweepPlan {
+    /// Number of its jobs.
+    pub jobs: u64,
+    /// Processor seconds of all jobs together, by the mean of up to 16 of them: likely (`cpu_s`) and enough in nine of ten cases
+    /// (`cpu_s_most`). Absent where none of these makes a valid job, or the machine could not be calibrated.
+    pub estimates: BTreeMap<String, f64>,
+}
+
 /// A job of a sweep.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SweepJob {

@@ -10,18 +10,17 @@ mod kind;
 mod sweep;
 mod variation;
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use api::plan::MachineFigures;
 use api::study::{StudyDocument, StudyRequest};
-use api::sweep::{Sweep, SweepRequest};
+use api::sweep::{Sweep, SweepPlan, SweepRequest};
 use serde::Serialize;
 use uuid::Uuid;
 
 use crate::batch::sweep::Expanded;
-use crate::estimate::Estimate;
-use crate::estimate::machine::cpu_s;
-use crate::number::real;
+use crate::estimate::expected_time::ExpectedTime;
 use crate::queue;
 use crate::spec::Refused;
 use crate::store::{
@@ -159,6 +158,20 @@ impl Request {
     }
 }
 
+/// Returns what a sweep is expected to take, by some of its jobs.
+///
+/// # Errors
+/// [`Refused`] if it cannot be read, or is too large.
+pub fn plan_sweep(request: &[u8], machine: Option<&MachineFigures>) -> Result<SweepPlan, Refused> {
+    let request = variation::read(request)?;
+    let (jobs, sample) = sweep::sampled(&request)?;
+    let mean = ExpectedTime::mean(&sample, machine);
+    Ok(SweepPlan {
+        jobs,
+        estimates: mean.map_or_else(BTreeMap::new, |mean| mean.times(jobs).estimates()),
+    })
+}
+
 /// Returns further rows of the table of a sweep as CSV.
 ///
 /// # Errors
@@ -223,17 +236,8 @@ fn expansion(
         request: serde_json::to_string(request)?,
         next,
         jobs: *jobs,
-        cpu_s: mean_cpu_s(sample, machine),
+        cpu_s: ExpectedTime::mean(sample, machine).map(|mean| mean.likely_s),
     }))
-}
-
-/// Processor time that is expected of one of these jobs in the mean; `None` if the machine's speed is unknown.
-fn mean_cpu_s(sample: &[Estimate], machine: Option<&MachineFigures>) -> Option<f64> {
-    let machine = machine.filter(|_| !sample.is_empty())?;
-    let each = sample
-        .iter()
-        .map(|estimate| cpu_s(machine, &estimate.workload));
-    Some(each.sum::<f64>() / real(sample.len()))
 }
 
 fn job(position: u64, variation: Variation, machine: Option<&MachineFigures>) -> NewBatchJob {

@@ -1,7 +1,9 @@
 //! Estimates of a solve from the lengths of its scene, before anything is meshed or solved: unknowns, memory, output,
 //! contact increments, and the processor time that this machine needs for them.
 
+pub(crate) mod expected_time;
 pub mod footprint;
+pub(crate) mod foreseen;
 mod life;
 pub mod machine;
 mod notes;

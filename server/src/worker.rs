@@ -9,6 +9,7 @@ mod health;
 mod manifest;
 mod process;
 pub mod protocol;
+mod remaining;
 mod resume;
 mod supervisor;
 mod update_buffer;

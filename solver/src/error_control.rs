@@ -17,7 +17,7 @@ mod companion_threads;
 mod companions;
 mod estimate;
 
-pub use balance::finest_scenes;
+pub use balance::may_restart;
 pub use companions::companion_scenes;
 
 use crate::SolveError;

@@ -14,11 +14,14 @@
 //! one pass, sqrt(2 R k P jump) deep into the floor, to which its half-width adds by a share (`scene::Tuning`).
 
 mod blocks;
+mod course;
+mod edges;
 mod line;
 mod point;
 mod surrogate;
 
 use crate::model::Layout;
+use crate::model::expected_wear::expected_end;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
 use crate::schedule::mission::MissionPosition;
@@ -27,6 +30,8 @@ use crate::schedule::stops;
 use crate::sides::Sides;
 
 use blocks::{Block, WornBlocks};
+pub use course::Course;
+use edges::Edges;
 pub use line::{LineForecast, line_forecast};
 pub use point::{PointForecast, point_forecast};
 use surrogate::Scar;
@@ -62,12 +67,23 @@ pub struct Forecast {
     pub condensations: Sides<u32>,
     /// Its increments, in order.
     pub segments: Vec<Segment>,
+    /// Natural logarithm of the cycles at its end over those at which a layer was worn through to one that wears much faster; 0 where none is.
+    pub fast_layer: f64,
 }
 
 impl Forecast {
     /// Contact increments of the whole run.
     pub fn increments(&self) -> f64 {
         self.segments.iter().map(|part| part.increments).sum()
+    }
+
+    /// Its increments over its cycles.
+    pub fn course(&self) -> Course {
+        let mut course = Course::default();
+        for segment in &self.segments {
+            course.add(segment.cycle, segment.increments);
+        }
+        course
     }
 }
 
@@ -84,9 +100,10 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
     let x = layout.bodies.of(layout.sizes.slave).contact_x();
     let mut position = MissionPosition::first(scene);
     let (mut cycle, mut is_first) = (0, false);
+    let mut edges = Edges::new(scene);
     while !worn.is_done(scene, position.block, cycle) {
         if MOST_SEGMENTS <= run.segments.len() {
-            run.extrapolate(cycle, scene.cycles);
+            run.extrapolate(cycle, expected_end(scene));
             break;
         }
         let depth = |side, part| worn.depth_of_part(side, part);
@@ -96,12 +113,16 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         }
         let now = worn.progress(position.block, cycle);
         let (until, is_reported) = position.next_reported(scene, stops::next(scene, now, depth));
+        let at_edge = edges.largest_jump(&scene.accuracy, cycle, |side| depth(side, 0.0));
         let Block { scar, jump, motion } = &mut worn.blocks[position.block];
         if is_first {
             scar.change_motion();
         }
         let (accuracy, stroke) = (&scene.accuracy, scar.stroke(scene, cycle));
         let mut step = jump.next(accuracy, stroke, until - cycle);
+        if accuracy.cycle_jump.is_none() {
+            step = step.min(at_edge);
+        }
         if is_first && stroke.is_groove {
             // Nothing to extrapolate from.
             step = 1;
@@ -143,6 +164,7 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         is_first = false;
         worn.rebuild(scene, &mut run.condensations);
     }
+    run.fast_layer = edges.course(cycle);
     run
 }
 
@@ -158,7 +180,7 @@ fn batch_size(scene: &Scene, computed: f64, most: u64) -> u64 {
 
 impl Forecast {
     /// Extrapolates the rest of a long run from its last computed cycle.
-    fn extrapolate(&mut self, done: u64, cycles: u64) {
+    fn extrapolate(&mut self, done: u64, end: u64) {
         let (Some(last), Some(before)) = (
             self.segments.last().copied(),
             self.segments.iter().rev().nth(1),
@@ -166,10 +188,11 @@ impl Forecast {
             return;
         };
         let jump = real_cycles((last.cycle - before.cycle).max(1));
-        let computed = real_cycles(cycles - done) / jump;
+        let end = end.max(done);
+        let computed = real_cycles(end - done) / jump;
         self.computed_cycles += computed;
         self.segments.push(Segment {
-            cycle: cycles,
+            cycle: end,
             increments: computed * last.increments,
             ..last
         });

@@ -4,7 +4,7 @@ import { link } from "../parts/address.js";
 import { fetch_json } from "../parts/client.js";
 import { download_link } from "../parts/download.js";
 import { definitions, element } from "../parts/element.js";
-import { count, duration, percent, seconds_between, time, words } from "../parts/format.js";
+import { count, duration, duration_range, percent, seconds_between, time, words } from "../parts/format.js";
 import { badge, has_ended, progress_bar } from "../parts/status.js";
 
 /** The head of a job's page. */
@@ -53,12 +53,12 @@ export class Head {
   #show(progress) {
     const job = this.#job;
     const ended = has_ended(job);
-    const { phase, stage, reason, cycle, cycles, fraction, eta_s } = progress;
+    const { phase, stage, reason, cycle, cycles, fraction, eta_s, eta_most_s } = progress;
     const is_refined = stage === "refined";
     const running = ended ? [] : [
       is_refined && progress_bar(1, "progress of the first run"),
       progress_bar(fraction, is_refined ? "progress of the finer run" : "progress"),
-      element("span", {}, `${is_refined ? "refined · " : ""}${percent(fraction)} · cycle ${count(cycle)} of ${count(cycles)}${phase ? ` · ${words(phase)}` : ""}${eta_s == null ? "" : ` · ${duration(eta_s)} left`}`),
+      element("span", {}, `${is_refined ? "refined · " : ""}${percent(fraction)} · cycle ${count(cycle)} of ${count(cycles)}${phase ? ` · ${words(phase)}` : ""}${eta_s == null ? "" : ` · ${duration_range(eta_s, eta_most_s)} left`}`),
     ];
     const taken = job.started_at && job.finished_at ? duration(seconds_between(job.started_at, job.finished_at)) : null;
     this.#status.replaceChildren(

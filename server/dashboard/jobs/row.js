@@ -2,7 +2,7 @@
 
 import { link } from "../parts/address.js";
 import { element } from "../parts/element.js";
-import { count, duration, length, percent, seconds_between, time, words } from "../parts/format.js";
+import { count, duration, duration_range, length, percent, seconds_between, time, words } from "../parts/format.js";
 import { badge, has_ended, progress_bar, refined } from "../parts/status.js";
 import { sparkline } from "./sparkline.js";
 
@@ -38,14 +38,14 @@ export class Row {
   update(job) {
     this.#job = job;
     const { status, progress, left, life } = this.#cells;
-    const { cycle, cycles, fraction, eta_s } = job.progress;
+    const { cycle, cycles, fraction, eta_s, eta_most_s } = job.progress;
     const reason = job.status !== "succeeded" && job.status_reason;
     this.node.className = job.status;
     status.replaceChildren(badge(job), reason ? element("div", { class: "reason", title: job.status_reason }, job.status_reason) : "");
     progress.replaceChildren(...(has_ended(job)
       ? [`${count(cycle)} cycles`]
       : [progress_bar(fraction, `progress of ${job.name ?? job.id}`), element("div", { class: "muted" }, `${refined(job.progress)}${percent(fraction)}, cycle ${count(cycle)} of ${count(cycles)}`)]));
-    left.textContent = has_ended(job) ? "" : duration(eta_s);
+    left.textContent = has_ended(job) ? "" : duration_range(eta_s, eta_most_s);
     const figures = job.key_figures;
     if (figures) this.#depth.textContent = length(Math.max(figures.receptacle_max_depth_mm, figures.slider_max_depth_mm));
     life.textContent = figures?.life_cycles == null ? "" : `${count(figures.life_cycles)} cycles`;

@@ -64,6 +64,17 @@ export function duration(seconds) {
 }
 
 /**
+ * A range of durations, from the likely one to one that is enough in nine of ten cases.
+ * @param {number | null | undefined} likely s
+ * @param {number | null | undefined} most s
+ * @returns {string}
+ */
+export function duration_range(likely, most) {
+  const [from, to] = [duration(likely), duration(most)];
+  return to === "" || from === to ? from : from === "" ? to : `${from} to ${to}`;
+}
+
+/**
  * A time of day or date in the reader's own format.
  * @param {string | null | undefined} text RFC 3339
  * @returns {string}

@@ -1,7 +1,6 @@
 // What an accuracy study is asked for.
 
 import { card, element } from "../parts/element.js";
-import { duration } from "../parts/format.js";
 
 /** Budget of the service unless another is given, and the range that it accepts, processor seconds. */
 const BUDGET_S = 180;
@@ -40,10 +39,10 @@ export class AccuracyForm {
     return this.budget_s >= LEAST_S && this.budget_s <= MOST_S;
   }
 
-  /** @param {number} expected_s of the specification as it is, processor seconds */
-  show(expected_s) {
+  /** @param {string} expected processor time of the specification as it is; empty while it is not known */
+  show(expected) {
     this.#mark(this.is_complete ? "" : `a number from ${LEAST_S} to ${MOST_S}`);
-    this.#expected.textContent = Number.isNaN(expected_s) ? "" : `One run at the accuracy of the specification is expected to take ${duration(expected_s)}.`;
+    this.#expected.textContent = expected ? `One run at the accuracy of the specification is expected to take ${expected}.` : "";
   }
 
   /** @param {string} text */

@@ -2,7 +2,7 @@
 
 import { effects_table } from "../parts/effects.js";
 import { card, definitions, element, table } from "../parts/element.js";
-import { count, duration, length, number, words } from "../parts/format.js";
+import { count, duration_range, length, number, words } from "../parts/format.js";
 import { motion_card } from "../parts/motion.js";
 
 /**
@@ -28,7 +28,7 @@ export function plan_cards(plan) {
   const lives = life.map((/** @type {any} */ one) => [words(one.criterion?.kind ?? ""), one.side ?? "", count(one.cycles)]).filter((/** @type {string[]} */ row) => row[2] !== "");
   return [
     card("Expected", definitions([
-      ["processor time", duration(estimates.cpu_s)], ["memory", `${number(estimates.memory_mb)} MB`], ["results", `${number(estimates.output_mb)} MB`],
+      ["processor time", duration_range(estimates.cpu_s, estimates.cpu_s_most)], ["memory", `${number(estimates.memory_mb)} MB`], ["results", `${number(estimates.output_mb)} MB`],
       ["computed cycles", count(estimates.computed_cycles)], ["increments", count(estimates.increments)],
       ["unworn contact", `${length(estimates.hertz_half_width_mm)} to either side, ${number(estimates.hertz_peak_pressure_mpa)} MPa at most`],
       ["element of the contact", length(estimates.contact_element_mm)],

@@ -2,7 +2,10 @@
 
 import { choices, link } from "../parts/address.js";
 import { post_json, Problem } from "../parts/client.js";
+import { Unreachable } from "../parts/connection.js";
 import { element } from "../parts/element.js";
+import { duration_range } from "../parts/format.js";
+import { throttled } from "../parts/throttled.js";
 import { AccuracyForm } from "./accuracy_form.js";
 import { SweepForm } from "./sweep_form.js";
 
@@ -11,12 +14,19 @@ import { SweepForm } from "./sweep_form.js";
 /** What is submitted: its name, its collection, its page. @type {Record<Kind, [string, string, string]>} */
 const KINDS = { job: ["one job", "/v1/jobs", "job"], sweep: ["sweep", "/v1/sweeps", "sweep"], accuracy: ["accuracy study", "/v1/studies", "accuracy"] };
 
+/** Time between two plans of a sweep while it is typed, ms. */
+const TYPING_MS = 400;
+
 /** The choice of what is submitted, its forms, its request and the button. */
 export class Submission {
   /** The specification, while it is one. @type {any} */
   #spec = null;
   #is_accepted = false;
-  #expected_s = NaN;
+  /** Processor time of the specification as one job, in words. */
+  #expected = "";
+  /** The sweep whose processor time is known or asked for, as it would be sent. */
+  #planned_sweep = "";
+  #plan_sweep;
   #signal;
   #refused;
   #changed = () => {};
@@ -37,6 +47,7 @@ export class Submission {
   constructor({ signal, cloned, typed, refused, changed }) {
     this.#signal = signal;
     this.#refused = refused;
+    this.#plan_sweep = throttled(() => this.#ask_for_sweep(), TYPING_MS, signal);
     const asked = choices.get("as") ?? "";
     this.#kind.value = asked in KINDS ? asked : "job";
     this.#kind.addEventListener("change", () => {
@@ -83,8 +94,9 @@ export class Submission {
    */
   planned(found, shape) {
     this.#is_accepted = found !== null;
-    this.#expected_s = found?.plan.estimates.cpu_s ?? NaN;
-    if (found && shape) this.#sweep.offer(found.spec, shape, this.#expected_s);
+    const { cpu_s, cpu_s_most } = found?.plan.estimates ?? {};
+    this.#expected = duration_range(cpu_s, cpu_s_most);
+    if (found && shape) this.#sweep.offer(found.spec, shape);
     this.#show();
   }
 
@@ -102,7 +114,8 @@ export class Submission {
     for (const one of [this.#sweep, this.#accuracy]) one.node.hidden = one !== form;
     if (form && this.#name_row.parentElement !== form.node) form.node.querySelector("h2")?.after(this.#name_row);
     this.#sweep.show();
-    this.#accuracy.show(this.#expected_s);
+    this.#accuracy.show(this.#expected);
+    this.#plan_sweep();
     const is_ready = this.#is_accepted && this.#spec !== null && (form?.is_complete ?? true);
     this.#button.toggleAttribute("disabled", !is_ready);
     const { jobs } = this.#sweep;
@@ -112,6 +125,23 @@ export class Submission {
     this.#body.hidden = this.kind === "job";
     this.#body.textContent = JSON.stringify(body, null, 2);
     this.#curl.textContent = `curl --json '${JSON.stringify(body).replaceAll("'", "'\\''")}' ${location.origin}${KINDS[this.kind][1]}`;
+  }
+
+  /** Asks what the sweep takes, unless the same was asked before. */
+  async #ask_for_sweep() {
+    const asked = this.kind === "sweep" && this.#is_accepted && this.#sweep.is_complete ? JSON.stringify(this.#request()) : "";
+    if (asked === this.#planned_sweep) return;
+    this.#planned_sweep = asked;
+    this.#sweep.expect("");
+    if (asked === "") return;
+    try {
+      const { estimates } = await post_json("/v1/sweeps/plans", JSON.parse(asked));
+      if (asked === this.#planned_sweep && !this.#signal.aborted) this.#sweep.expect(duration_range(estimates.cpu_s, estimates.cpu_s_most));
+    } catch (error) {
+      // What is wrong with it is said when it is submitted.
+      this.#planned_sweep = "";
+      if (!(error instanceof Problem || error instanceof Unreachable)) throw error;
+    }
   }
 
   async #submit() {

@@ -1,7 +1,7 @@
 // What a sweep varies: its fields with their values, and how they are combined.
 
 import { card, element } from "../parts/element.js";
-import { count, duration } from "../parts/format.js";
+import { count } from "../parts/format.js";
 import { leaves } from "../parts/leaves.js";
 import { SweptField } from "./swept_field.js";
 
@@ -22,7 +22,8 @@ export class SweepForm {
   #offered = [];
   /** @type {import("./schema.js").Shape | null} */
   #shape = null;
-  #expected_s = NaN;
+  /** Processor time of all jobs together, in words; empty while it is not known. */
+  #together = "";
   #rows = element("div");
   #combined = /** @type {HTMLSelectElement} */ (element("select", { id: "combined" }, element("option", { value: "grid" }, "every combination"), element("option", { value: "list" }, "first with first, second with second, …")));
   #combined_label = element("label", {}, "Values combined as ", this.#combined);
@@ -84,14 +85,12 @@ export class SweepForm {
    * Offers the fields of a specification that has been planned.
    * @param {any} resolved
    * @param {import("./schema.js").Shape} shape
-   * @param {number} expected_s of one job, processor seconds
    */
-  offer(resolved, shape, expected_s) {
+  offer(resolved, shape) {
     const all = leaves(resolved).filter(([pointer, value]) => value !== null && !LEFT_OUT.some((start) => pointer.startsWith(start)));
     const by_name = BY_NAME.filter((pointer) => resolved.materials?.[pointer.split("/")[2]]);
     this.#offered = [...all.map(([pointer, value]) => ({ pointer, value })), ...by_name.map((pointer) => ({ pointer, value: "" }))];
     this.#shape = shape;
-    this.#expected_s = expected_s;
     for (const field of this.#fields) field.offer(this.#offered, shape);
     this.show();
   }
@@ -134,6 +133,12 @@ export class SweepForm {
     return "";
   }
 
+  /** @param {string} together processor time of all jobs; empty while it is not known */
+  expect(together) {
+    this.#together = together;
+    this.show();
+  }
+
   show() {
     this.#combined_label.hidden = this.#fields.length < 2;
     for (const field of this.#fields) {
@@ -141,10 +146,9 @@ export class SweepForm {
       field.mark(this.#fault(field));
     }
     const { jobs } = this;
-    const together = duration(jobs * this.#expected_s);
     this.#said.textContent = jobs === 0 ? "Choose a field and its values."
       : jobs > this.#most_jobs ? `${count(jobs)} jobs; a sweep has at most ${count(this.#most_jobs)}.`
-        : `${jobs === 1 ? "1 job" : `${count(jobs)} jobs`}${together && !Number.isNaN(this.#expected_s) ? `, ${together} of processor time together if each takes as long as the one that is planned here` : ""}.`;
+        : `${jobs === 1 ? "1 job" : `${count(jobs)} jobs`}${this.#together && `, ${this.#together} of processor time together`}.`;
   }
 
   /**

@@ -44,6 +44,18 @@ pub(super) struct Expanded {
     pub(super) jobs: u64,
 }
 
+/// Returns the number of jobs of a sweep, and the estimates of some of them; those with a fault are left out.
+///
+/// # Errors
+/// [`Refused`] for sizes beyond the limits.
+pub(super) fn sampled(request: &SweepRequest) -> Result<(u64, Vec<Estimate>), Refused> {
+    check_size(request).map_err(Refused::Faults)?;
+    let variations = Variations::of(request);
+    let jobs = variations.len();
+    let some = sample::timed(jobs).filter_map(|position| variations.at(position).ok());
+    Ok((jobs, some.map(|variation| variation.estimate).collect()))
+}
+
 /// Returns the first jobs of a sweep, in order.
 ///
 /// # Errors

@@ -17,7 +17,7 @@ pub(super) fn run(spec: &Path, json: bool) -> Ended {
     let resolved = specification::resolved(spec)?;
     let cache = CalibrationCache::open(cache_file());
     let machine = cache.get_or_measure().cloned();
-    let plan = Estimate::of(&resolved).plan_with_restart(&resolved, machine.as_ref());
+    let plan = Estimate::of(&resolved).plan(&resolved, machine.as_ref());
     if json {
         return write_json(&PlanDocument {
             spec: resolved.spec,

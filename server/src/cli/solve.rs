@@ -66,14 +66,11 @@ fn is_interactive() -> bool {
 fn announce(resolved: &Resolved, is_confirmed: bool) -> Ended {
     let cache = CalibrationCache::open(cache_file());
     let plan = Estimate::of(resolved).plan(resolved, cache.get_or_measure());
-    let seconds = plan.estimates.get("cpu_s").copied().unwrap_or_default();
-    let duration = if seconds > HOUR_S {
-        format!("{} h", rounded(seconds / HOUR_S))
-    } else {
-        format!("{} min", rounded(seconds / MINUTE_S))
-    };
+    let [seconds, most] =
+        ["cpu_s", "cpu_s_most"].map(|name| plan.estimates.get(name).copied().unwrap_or_default());
+    let (from, to) = (duration(seconds), duration(most));
     let expected =
-        format!("the solve is expected to take {duration} of processor time on this machine");
+        format!("the solve is expected to take {from} to {to} of processor time on this machine");
     if seconds > HOUR_S && !is_confirmed {
         return Err(unusable(format_args!("{expected}; start it with --yes")));
     }
@@ -81,6 +78,14 @@ fn announce(resolved: &Resolved, is_confirmed: bool) -> Ended {
         write_err(format_args!("fretwear: {expected}"));
     }
     Ok(())
+}
+
+fn duration(seconds: f64) -> String {
+    if seconds > HOUR_S {
+        format!("{} h", rounded(seconds / HOUR_S))
+    } else {
+        format!("{} min", rounded(seconds / MINUTE_S))
+    }
 }
 
 #[derive(Default)]

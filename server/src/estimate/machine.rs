@@ -40,9 +40,11 @@ pub fn cpu_s(machine: &MachineFigures, workload: &Workload) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use solver::forecast::Course;
+
     use super::coefficients::checked;
     use super::*;
-    use crate::estimate::workload::Condensations;
+    use crate::estimate::workload::{Condensations, LeftOut};
 
     #[test]
     fn impossible_coefficients_are_refused() {
@@ -96,6 +98,8 @@ mod tests {
             cells: (0.0, 0.0),
             stations: 1,
             planes: 1,
+            course: Course::default(),
+            left_out: LeftOut::Little,
             companions: Vec::new(),
         };
         // 0.1 s and 0.2 s of increments, 2 x (0.1 + 1) s of condensations.

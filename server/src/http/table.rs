@@ -68,6 +68,7 @@ pub(super) fn routes_and_document() -> (Router<App>, Document) {
             batches::show::show_sweep,
             batches::delete::remove_sweep
         ))
+        .routes(routes!(batches::plan::make_sweep_plan))
         .routes(routes!(batches::show_base::show_sweep_base))
         .routes(routes!(batches::outcomes::sweep_outcomes))
         .routes(routes!(batches::cancel::cancel_sweep))

@@ -8,6 +8,7 @@ use api::spec::Spec;
 use tokio::time::MissedTickBehavior;
 use tokio_util::sync::CancellationToken;
 
+use crate::estimate::foreseen::Foreseen;
 use crate::queue::Transition;
 use crate::solve::Line;
 use crate::solve::checkpoint::EncodedCheckpoint;
@@ -85,7 +86,7 @@ async fn run<E: Employer>(
         .as_ref()
         .map_or(0, ClaimedCheckpoint::cycle);
     tracing::info!(from_cycle, memory_mb = claim.memory_mb, "job claimed");
-    let mut buffer = UpdateBuffer::new(cycles, from_cycle);
+    let mut buffer = UpdateBuffer::new(cycles, from_cycle, Foreseen::of(&claim.spec));
     let started = if let Some(cause) = attempt.round.end() {
         Err(declined(cause))
     } else {

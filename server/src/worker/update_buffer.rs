@@ -9,10 +9,12 @@ use api::job::{Phase, Progress, Stage};
 use jiff::Timestamp;
 use solver::record::CycleReport;
 
+use crate::estimate::foreseen::Foreseen;
 use crate::number::real;
 use crate::solve::Line;
 use crate::store::{EventName, JobUpdate, NewContent, NewFile};
 use crate::worker::computed::Computed;
+use crate::worker::remaining::RemainingTime;
 
 /// Smallest fraction of the cycles between two events.
 const EVENT_FRACTION: f64 = 0.005;
@@ -29,7 +31,6 @@ const BYTE_LIMIT: usize = 16 << 20;
 #[derive(Debug)]
 pub(super) struct UpdateBuffer {
     progress: Progress,
-    from_cycle: u64,
     update: JobUpdate,
     /// Everything since cycle 0; `None` where it is not, or too long.
     computed: Option<Computed>,
@@ -43,14 +44,19 @@ pub(super) struct UpdateBuffer {
     taken_bytes: usize,
     newest: Option<CycleReport>,
     started: Instant,
+    remaining: RemainingTime,
     last_event: Option<(Instant, f64)>,
     /// Whether the last event was in the phase of the companions, which has no cycles and so no progress.
     in_companions: bool,
 }
 
 impl UpdateBuffer {
-    /// A buffer for a job with this number of cycles that starts after `from_cycle`.
-    pub(super) fn new(cycles: u64, from_cycle: u64) -> Self {
+    /// A buffer for a job with this number of cycles that starts after `from_cycle`, of which this is foreseen.
+    pub(super) fn new(cycles: u64, from_cycle: u64, foreseen: Foreseen) -> Self {
+        Self::with(cycles, from_cycle, RemainingTime::new(foreseen, from_cycle))
+    }
+
+    fn with(cycles: u64, from_cycle: u64, remaining: RemainingTime) -> Self {
         Self {
             progress: Progress {
                 cycle: from_cycle,
@@ -59,7 +65,6 @@ impl UpdateBuffer {
                 updated_at: Some(Timestamp::now().to_string()),
                 ..Progress::default()
             },
-            from_cycle,
             update: JobUpdate::default(),
             computed: (from_cycle == 0).then(Computed::default),
             bytes: 0,
@@ -68,6 +73,7 @@ impl UpdateBuffer {
             taken_bytes: 0,
             newest: None,
             started: Instant::now(),
+            remaining,
             last_event: None,
             in_companions: false,
         }
@@ -76,9 +82,12 @@ impl UpdateBuffer {
     /// Discards everything, also what could not be recorded; the run starts at cycle 0, for this reason. Returns the number of this write.
     pub(super) fn restart(&mut self, reason: String) -> i64 {
         let number = self.next_number();
+        let mut remaining = std::mem::take(&mut self.remaining);
+        remaining.again(self.elapsed_s());
         *self = Self {
             number,
-            ..Self::new(self.progress.cycles, 0)
+            started: self.started,
+            ..Self::with(self.progress.cycles, 0, remaining)
         };
         self.progress.reason = Some(reason);
         number
@@ -96,6 +105,9 @@ impl UpdateBuffer {
         self.progress.updated_at = Some(Timestamp::now().to_string());
         match line {
             Line::Phase(phase) => {
+                if phase == Phase::Companions {
+                    self.remaining.companions(self.elapsed_s());
+                }
                 self.progress.phase = Some(phase);
                 self.progress.stage = Some(stage(self.progress.stage, phase));
             }
@@ -104,6 +116,7 @@ impl UpdateBuffer {
                 self.progress.reason = Some(errors);
             }
             Line::Cycle(row) => {
+                self.remaining.computed(row.cycle, self.elapsed_s());
                 self.progress.cycle = row.cycle;
                 self.progress.fraction = fraction(row.cycle, self.progress.cycles);
                 let computed = self.computed.take();
@@ -166,7 +179,9 @@ impl UpdateBuffer {
 
     fn take_present(&mut self, is_last: bool) -> JobUpdate {
         self.taken_bytes = std::mem::take(&mut self.bytes);
-        self.progress.eta_s = self.eta_s();
+        let remaining = self.remaining.remaining(self.elapsed_s());
+        self.progress.eta_s = remaining.map(|left| left.likely_s);
+        self.progress.eta_most_s = remaining.map(|left| left.most_s);
         let mut update = std::mem::take(&mut self.update);
         update.number = self.next_number();
         update.progress = self.progress.clone();
@@ -207,14 +222,8 @@ impl UpdateBuffer {
         self.progress.phase == Some(Phase::Companions)
     }
 
-    /// Unknown while companions run: whether a finer run follows depends on them.
-    fn eta_s(&self) -> Option<f64> {
-        if self.runs_companions() {
-            return None;
-        }
-        let done = self.progress.fraction;
-        let done_here = done - fraction(self.from_cycle, self.progress.cycles);
-        (done_here > 0.0).then(|| self.started.elapsed().as_secs_f64() * (1.0 - done) / done_here)
+    fn elapsed_s(&self) -> f64 {
+        self.started.elapsed().as_secs_f64()
     }
 }
 

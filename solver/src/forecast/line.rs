@@ -5,6 +5,8 @@
 //!
 //! Extruded bodies follow one section, whose increments are solved for the nodes of all planes together.
 
+use super::course::Course;
+use super::edges::Edges;
 use super::solved;
 use super::surrogate::Scar;
 use crate::extruded::ExtrudedScene;
@@ -44,6 +46,10 @@ pub struct LineForecast {
     pub stations: usize,
     /// Node planes that are condensed together: 1 of sections that only their forces couple.
     pub planes: usize,
+    /// Its increments over its cycles.
+    pub course: Course,
+    /// Natural logarithm of the cycles at its end over those at which a layer was worn through to one that wears much faster; 0 where none is.
+    pub fast_layer: f64,
 }
 
 /// What is solved for together in an increment, and condensed.
@@ -115,6 +121,7 @@ fn forecast(
         ..LineForecast::default()
     };
     let (mut cycle, mut last) = (0, 1);
+    let mut edges = Edges::new(scene);
     while stops::end(scene, progress(&sections, cycle), |side, part| {
         deepest(&sections, side, part)
     })
@@ -122,7 +129,8 @@ fn forecast(
         && !is_too_deep(scene, &sections)
     {
         if forecast.solves.len() / sections.len() >= MOST_CYCLES {
-            forecast.extrapolate(scene.cycles - cycle, (last, sections.len()));
+            let end = expected_wear::expected_end(scene).max(cycle);
+            forecast.extrapolate((cycle, end), (last, sections.len()));
             break;
         }
         let now = progress(&sections, cycle);
@@ -134,6 +142,10 @@ fn forecast(
             let next = section.jump.next(&scene.accuracy, stroke, until - cycle);
             jump = jump.min(next);
         }
+        if scene.accuracy.cycle_jump.is_none() {
+            let depth = |side| deepest(&sections, side, 0.0);
+            jump = jump.min(edges.largest_jump(&scene.accuracy, cycle, depth));
+        }
         let cycles = Cycles { done: cycle, jump };
         let increments = increments(scene, &sections, cycles);
         for section in &mut sections {
@@ -142,6 +154,7 @@ fn forecast(
         cycle += jump;
         last = jump;
         forecast.computed_cycles += 1.0;
+        forecast.course.add(cycle, real(increments));
         forecast.most_increments = forecast.most_increments.max(increments);
         for section in &mut sections {
             let nodes = solves.planes * solved(x, &section.scar);
@@ -151,6 +164,7 @@ fn forecast(
             section.rebuild(scene, solves.share, &mut forecast.condensations);
         }
     }
+    forecast.fast_layer = edges.course(cycle);
     forecast
 }
 
@@ -301,11 +315,16 @@ fn progress(sections: &[Section], cycle: u64) -> Progress {
 
 impl LineForecast {
     /// Extrapolates the rest of a long run from its last computed cycle, of a jump.
-    fn extrapolate(&mut self, rest: u64, (jump, sections): (u64, usize)) {
-        let computed = real_cycles(rest) / real_cycles(jump);
+    fn extrapolate(&mut self, (done, end): (u64, u64), (jump, sections): (u64, usize)) {
+        let computed = real_cycles(end - done) / real_cycles(jump);
         self.computed_cycles += computed;
         let last = self.solves.len().saturating_sub(sections);
         let again: Vec<_> = self.solves[last..].to_vec();
+        let increments = again
+            .iter()
+            .map(|(_, count)| count)
+            .fold(0.0, |most, &count| count.max(most));
+        self.course.add(end, computed * increments);
         let again = again.into_iter();
         self.solves
             .extend(again.map(|(nodes, count)| (nodes, computed * count)));

@@ -4,6 +4,7 @@
 //! arcs that have worn off, b^2 = a^2 + 2 R_x (h_s + h_r exp(-2.3 A/a)) and c^2 = a_z^2 + 2 R_z (h_s + h_r): a groove is followed along
 //! by short strokes alone. The wear per cycle changes by the part 1 - b_0 c_0/(b_1 c_1) of it, of which the run's estimate is a share.
 
+use super::course::Course;
 use crate::effects::{self, Effect};
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
@@ -14,7 +15,7 @@ use crate::scene::Scene;
 use crate::sides::{Side, Sides};
 
 /// Estimated work of the run of a point contact.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct PointForecast {
     /// Computed cycles.
     pub computed_cycles: f64,
@@ -28,6 +29,8 @@ pub struct PointForecast {
     pub most_cells: usize,
     /// Most cells of the grids of both bodies together.
     pub surface_cells: usize,
+    /// Its contact solves over its cycles.
+    pub course: Course,
 }
 
 /// Share of the change of the wear per cycle in the estimate of the run. Fitted to runs of `sd_card` and of a ball of steel.
@@ -103,6 +106,7 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
         forecast.computed_cycles += 1.0;
         forecast.most_increments = forecast.most_increments.max(solves);
         forecast.increments += repetitions * real(solves);
+        forecast.course.add(done, real(solves));
         forecast.cell_iterations += repetitions * real(solves) * iterations * cells;
         forecast.most_cells = forecast.most_cells.max(count_at_least(cells));
         let strip = (amplitude / worn.along + WINDOW) / WINDOW;
@@ -113,6 +117,7 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
             let rest = real_cycles(cycles - done) / real_cycles(jump);
             forecast.computed_cycles += rest;
             forecast.increments += rest * repetitions * real(solves);
+            forecast.course.add(cycles, rest * real(solves));
             forecast.cell_iterations += rest * repetitions * real(solves) * iterations * cells;
             break;
         }

@@ -184,6 +184,11 @@ pub(crate) fn even_friction(scene: &Scene, done: u64) -> f64 {
     })
 }
 
+/// The least jump after `done` cycles, unless its length is limited.
+pub(crate) fn least_jump(accuracy: &Accuracy, done: u64) -> f64 {
+    LEAST_OF_DONE * accuracy.tolerance * real_cycles(done)
+}
+
 /// State of the jump control.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct JumpControl {
@@ -271,8 +276,8 @@ impl JumpControl {
         let longest = most * self.base.max(self.unshortened);
         let target = (self.base * allowed / self.error).clamp(least * self.base, longest);
         let most = stroke.most(accuracy, self.done);
-        let floor = LEAST_OF_DONE * accuracy.tolerance / finer * real_cycles(self.done);
-        let target = target.max(floor).min(most).max(1.0);
+        let target = target.max(least_jump(accuracy, self.done));
+        let target = target.min(most).max(1.0);
         self.unshortened = target;
         let short = if stroke.gross && !stroke.is_groove {
             cycles_at_least(most / accuracy.tuning.gross_taper)

@@ -56,6 +56,9 @@ async fn a_sweep_from_the_form_is_watched_to_its_end_and_its_map_opens_jobs() {
         .shows(".swept:nth-of-type(2) output", "0.02, 0.03, 0.04")
         .await;
     browser.shows("button.primary", "Submit 9 jobs").await;
+    browser
+        .shows(".submission [role=status]", "of processor time together")
+        .await;
     fits_a_phone(&browser, "sweep-form").await;
     browser.click("button.primary").await;
     browser

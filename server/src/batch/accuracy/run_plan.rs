@@ -7,7 +7,8 @@ use crate::batch::accuracy::grid::{Baseline, Grid};
 use crate::batch::accuracy::run_accuracy::RunAccuracy;
 use crate::batch::accuracy::settings::Settings;
 use crate::batch::variation::Accept;
-use crate::estimate::{Estimate, machine};
+use crate::estimate::Estimate;
+use crate::estimate::expected_time::ExpectedTime;
 use crate::spec;
 use crate::spec::{Refused, Resolved};
 
@@ -95,7 +96,7 @@ impl RunPlan {
         }
         let most_s = EXPECTED_SHARE * budget_s;
         let estimate = Estimate::of(base.resolved);
-        let expected_s = machine::cpu_s(machine, &estimate.workload);
+        let expected_s = ExpectedTime::of(machine, &estimate.workload).likely_s;
         let baseline = Baseline::of(base.resolved, &estimate, expected_s);
         let (grid, runs) = grid_within(&baseline, most_s - chosen.spent_s, &planned);
         for (settings, run) in runs {
@@ -119,7 +120,7 @@ fn plan_run(
     let resolved = spec::read(sent.as_bytes())?;
     let estimate = Estimate::of(&resolved);
     accept(&estimate)?;
-    let expected_s = machine::cpu_s(machine, &estimate.workload);
+    let expected_s = ExpectedTime::of(machine, &estimate.workload).likely_s;
     Ok(PlannedRun {
         accuracy,
         sent,

@@ -10,6 +10,15 @@ const SPREAD: u64 = 500;
 /// Largest number of values that are tried each beside the first values of the other fields.
 const VALUES: u64 = 1_000;
 
+/// Positions whose times are expected for those of all. Each takes some 10 ms.
+const TIMED: u64 = 16;
+
+/// Some evenly spread positions of so many.
+pub(super) fn timed(jobs: u64) -> impl Iterator<Item = u64> {
+    let parts = TIMED.min(jobs);
+    (0..parts).map(move |part| share(part, parts, jobs))
+}
+
 /// Positions within a range: evenly spread ones, the last one, and each value of each field beside the first values of the others; of
 /// more values than can be tried, evenly spread ones.
 pub(super) fn positions(request: &SweepRequest, range: Range<u64>) -> BTreeSet<u64> {

@@ -190,8 +190,10 @@ pub(crate) fn program() -> String {
 
 #[cfg(test)]
 mod tests {
+    use solver::forecast::Course;
+
     use super::*;
-    use crate::estimate::workload::Condensations;
+    use crate::estimate::workload::{Condensations, LeftOut};
 
     fn sample(nodes: f64, increment_s: f64, dofs: f64, surface_nodes: f64) -> Sample {
         let body = Condensations {
@@ -211,6 +213,8 @@ mod tests {
                 cells: (0.0, 0.0),
                 stations: 1,
                 planes: 1,
+                course: Course::default(),
+                left_out: LeftOut::Little,
                 companions: Vec::new(),
             },
             increment_s,

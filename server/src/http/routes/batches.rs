@@ -8,6 +8,7 @@ mod error;
 pub(crate) mod list;
 pub(crate) mod outcomes;
 pub(crate) mod picture;
+pub(crate) mod plan;
 pub(crate) mod retry;
 pub(crate) mod show;
 pub(crate) mod show_base;

@@ -30,7 +30,7 @@ fn row(cycle: u64) -> Line {
 
 #[test]
 fn every_row_is_stored_but_few_become_events() {
-    let mut buffer = UpdateBuffer::new(2000, 0);
+    let mut buffer = UpdateBuffer::new(2000, 0, Foreseen::default());
     let (mut rows, mut events) = (0, 0);
     for cycle in 0..=2000 {
         buffer.push(row(cycle), 100);
@@ -45,7 +45,7 @@ fn every_row_is_stored_but_few_become_events() {
 
 #[test]
 fn an_update_that_was_not_recorded_is_repeated_as_it_is() {
-    let mut buffer = UpdateBuffer::new(10, 0);
+    let mut buffer = UpdateBuffer::new(10, 0, Foreseen::default());
     buffer.push(row(1), 100);
     let failed = buffer.take();
     assert_eq!((failed.number, failed.events.len()), (1, 2));
@@ -69,7 +69,7 @@ fn an_update_that_was_not_recorded_is_repeated_as_it_is() {
 
 #[test]
 fn the_last_update_has_the_last_cycle() {
-    let mut buffer = UpdateBuffer::new(10, 0);
+    let mut buffer = UpdateBuffer::new(10, 0, Foreseen::default());
     buffer.push(row(1), 100);
     buffer.take();
     buffer.push(row(10), 100);
@@ -95,7 +95,7 @@ fn the_newest_checkpoint_is_stored_with_the_rows_before_it() {
             state: Vec::new(),
         })
     };
-    let mut buffer = UpdateBuffer::new(10, 3);
+    let mut buffer = UpdateBuffer::new(10, 3, Foreseen::default());
     assert!((buffer.take().progress.fraction - 0.3).abs() < 1e-15);
     buffer.push(row(4), 100);
     buffer.push(checkpoint(4), 100);
@@ -111,14 +111,17 @@ fn the_newest_checkpoint_is_stored_with_the_rows_before_it() {
 }
 
 #[test]
-fn the_phase_of_the_companions_is_announced_without_an_end() {
-    let mut buffer = UpdateBuffer::new(10, 0);
+fn the_phase_of_the_companions_is_announced() {
+    let foreseen = Foreseen::of(r#"{"system":{"kind":"dimm"},"cycles":10}"#);
+    let mut buffer = UpdateBuffer::new(10, 0, foreseen);
     buffer.push(row(5), 100);
-    let first = buffer.take();
-    assert!(first.progress.eta_s.is_some());
+    let Progress {
+        eta_s, eta_most_s, ..
+    } = buffer.take().progress;
+    assert!(eta_s.is_some() && eta_most_s > eta_s);
     buffer.push(Line::Phase(Phase::Companions), 10);
     let update = buffer.take();
-    assert_eq!(update.progress.eta_s, None);
+    assert!(update.progress.eta_most_s > Some(0.0));
     assert_eq!(update.events.len(), 1);
     buffer.push(Line::Phase(Phase::Companions), 10);
     assert!(buffer.take().events.is_empty());
@@ -126,7 +129,7 @@ fn the_phase_of_the_companions_is_announced_without_an_end() {
 
 #[test]
 fn long_lines_fill_the_buffer_before_many_rows_do() {
-    let mut buffer = UpdateBuffer::new(10, 0);
+    let mut buffer = UpdateBuffer::new(10, 0, Foreseen::default());
     buffer.push(row(1), BYTE_LIMIT - 1);
     assert!(!buffer.is_full());
     buffer.push(row(2), 1);
@@ -139,7 +142,7 @@ fn long_lines_fill_the_buffer_before_many_rows_do() {
 
 #[test]
 fn a_finer_run_is_a_stage_of_its_own_with_the_errors_of_the_first_one() {
-    let mut buffer = UpdateBuffer::new(100, 0);
+    let mut buffer = UpdateBuffer::new(100, 0, Foreseen::default());
     let mut stages = Vec::new();
     let mut push = |buffer: &mut UpdateBuffer, line: Line| {
         buffer.push(line, 100);
@@ -171,7 +174,7 @@ fn a_finer_run_is_a_stage_of_its_own_with_the_errors_of_the_first_one() {
 
 #[test]
 fn a_run_that_begins_again_says_why_and_announces_it_at_once() {
-    let mut buffer = UpdateBuffer::new(100, 0);
+    let mut buffer = UpdateBuffer::new(100, 0, Foreseen::default());
     buffer.push(row(50), 100);
     assert_eq!(buffer.take().events.len(), 2);
     buffer.restart("the finer run has no solution".to_owned());

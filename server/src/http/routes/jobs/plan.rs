@@ -27,7 +27,7 @@ pub(crate) async fn make_plan(
 ) -> Result<Json<PlanDocument>, ProblemResponse> {
     let (resolved, estimate) = resolve(body).await?;
     let machine = app.machine.get_or_measure_async().await;
-    let plan = estimate.plan_with_restart(&resolved, machine.as_ref());
+    let plan = estimate.plan(&resolved, machine.as_ref());
     Ok(Json(PlanDocument {
         spec: resolved.spec,
         plan,
