@@ -175,3 +175,24 @@ fn a_continuous_motion_has_millimetres_instead_of_cycles() {
         ran.stdout
     );
 }
+
+#[test]
+fn a_warning_of_the_plan_is_said_once_at_the_start_and_stays_in_the_document() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let spec = r#"{"system":{"kind":"zif"},"cycles":5,"accuracy":{"preset":"draft","estimate_errors":false}}"#;
+    std::fs::write(folder.path().join("spec.json"), spec).expect("written");
+    let solved = fretwear(folder.path(), &["solve", "spec.json", "--json"]);
+    assert_eq!(solved.code, Some(0), "{}", solved.stderr);
+    let words = "it is beyond its limit and not simulated";
+    let lines = solved.stderr.lines();
+    let said: Vec<_> = lines
+        .filter(|line| line.contains("across_width: ") && line.contains(words))
+        .collect();
+    assert_eq!(said.len(), 1, "{}", solved.stderr);
+    let document: Value = serde_json::from_str(&solved.stdout).expect("a document");
+    let warnings = document["warnings"].to_string();
+    assert!(
+        warnings.contains("across_width: it is beyond"),
+        "{warnings}"
+    );
+}

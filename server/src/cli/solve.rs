@@ -129,7 +129,7 @@ fn record(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
 }
 
 fn report(resolved: &Resolved, summary: &Summary, format: Format) -> Ended {
-    summary::write(&resolved.spec, summary, format)?;
+    summary::write(&resolved.spec, summary, format, &resolved.warnings)?;
     if summary.outcome == Outcome::Stopped {
         write_err("fretwear: the run was stopped");
         return Err(ExitCode::FAILURE);

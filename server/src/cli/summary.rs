@@ -1,5 +1,6 @@
 //! The summary of a solve as an engineer reads it: lives first, then wear, contact, errors and cost.
 
+use api::problem::Fault;
 use api::results::{BlockSummary, LifeEntry, LifeStatus, SideSummary, Summary};
 use api::spec::Spec;
 use comfy_table::Table;
@@ -28,13 +29,14 @@ impl Format {
     }
 }
 
-/// Writes the summary of a resolved specification to standard output, and its warnings to standard error.
-pub(super) fn write(spec: &Spec, summary: &Summary, format: Format) -> Ended {
+/// Writes the summary of a resolved specification to standard output, and to standard error its warnings that were not said before.
+pub(super) fn write(spec: &Spec, summary: &Summary, format: Format, said: &[Fault]) -> Ended {
     match format {
         Format::Json => write_json(summary)?,
         Format::Tables => write_out(text(spec, summary))?,
     }
-    for warning in &summary.warnings {
+    let is_new = |warning: &&String| !said.iter().any(|fault| warning.ends_with(&fault.detail));
+    for warning in summary.warnings.iter().filter(is_new) {
         write_err(format_args!("fretwear: warning: {warning}"));
     }
     Ok(())

@@ -36,7 +36,7 @@ pub(super) async fn watch(client: &Client, id: Uuid, format: Format) -> Ended {
     let done = followed.map_err(|error| report(&error))?;
     if let Some(summary) = &done.summary {
         let job = client.job(id).await.map_err(|error| report(&error))?;
-        summary::write(&job.spec, summary, format)?;
+        summary::write(&job.spec, summary, format, &[])?;
     }
     ended(&done)
 }
