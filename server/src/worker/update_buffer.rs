@@ -179,7 +179,9 @@ impl UpdateBuffer {
 
     fn take_present(&mut self, is_last: bool) -> JobUpdate {
         self.taken_bytes = std::mem::take(&mut self.bytes);
+        // After the end of an attempt nothing is left, or nothing is known of what is left.
         let remaining = self.remaining.remaining(self.elapsed_s());
+        let remaining = remaining.filter(|_| !is_last);
         self.progress.eta_s = remaining.map(|left| left.likely_s);
         self.progress.eta_most_s = remaining.map(|left| left.most_s);
         let mut update = std::mem::take(&mut self.update);

@@ -69,13 +69,21 @@ fn an_update_that_was_not_recorded_is_repeated_as_it_is() {
 
 #[test]
 fn the_last_update_has_the_last_cycle() {
-    let mut buffer = UpdateBuffer::new(10, 0, Foreseen::default());
+    let mut buffer = UpdateBuffer::new(
+        10,
+        0,
+        Foreseen::of(r#"{"system":{"kind":"dimm"},"cycles":10}"#),
+    );
     buffer.push(row(1), 100);
     buffer.take();
     buffer.push(row(10), 100);
     let [update] = &buffer.take_all()[..] else {
         panic!("one update")
     };
+    assert_eq!(
+        (update.progress.eta_s, update.progress.eta_most_s),
+        (None, None)
+    );
     assert!((update.progress.fraction - 1.0).abs() < 1e-15);
     assert_eq!(
         update
