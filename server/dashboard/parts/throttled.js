@@ -1,5 +1,8 @@
 // Calls that follow each other.
 
+/** Time between two plans of what is typed, ms. */
+export const TYPING_MS = 300;
+
 /**
  * Calls a function at most once in so many milliseconds, the last time after the last call.
  * @param {() => unknown} act

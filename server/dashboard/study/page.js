@@ -5,7 +5,7 @@ import { Unreachable, when_reached_again } from "../parts/connection.js";
 import { Draft } from "../parts/draft.js";
 import { card, element } from "../parts/element.js";
 import { words } from "../parts/format.js";
-import { throttled } from "../parts/throttled.js";
+import { throttled, TYPING_MS } from "../parts/throttled.js";
 import { cloned_batch, cloned_job } from "./clone.js";
 import { Expectation } from "./expectation.js";
 import { Fields } from "./fields.js";
@@ -16,8 +16,6 @@ import { taken_over_in_words, with_system } from "./systems.js";
 
 /** What is said of a clone that is not as it was sent. */
 const RESOLVED_ONLY = "An earlier version has queued this, which did not store what was sent: every value counts as given here, the defaults too.";
-/** Pause after a key before the plan is asked for, ms. */
-const TYPING_MS = 300;
 
 /** @type {import("../main.js").Page} */
 export async function study_page(content, { values }, signal) {

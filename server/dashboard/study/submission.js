@@ -5,7 +5,7 @@ import { post_json, Problem } from "../parts/client.js";
 import { Unreachable } from "../parts/connection.js";
 import { element } from "../parts/element.js";
 import { duration_range } from "../parts/format.js";
-import { throttled } from "../parts/throttled.js";
+import { throttled, TYPING_MS } from "../parts/throttled.js";
 import { AccuracyForm } from "./accuracy_form.js";
 import { SweepForm } from "./sweep_form.js";
 
@@ -13,9 +13,6 @@ import { SweepForm } from "./sweep_form.js";
 
 /** What is submitted: its name, its collection, its page. @type {Record<Kind, [string, string, string]>} */
 const KINDS = { job: ["one job", "/v1/jobs", "job"], sweep: ["sweep", "/v1/sweeps", "sweep"], accuracy: ["accuracy study", "/v1/studies", "accuracy"] };
-
-/** Time between two plans of a sweep while it is typed, ms. */
-const TYPING_MS = 400;
 
 /** The choice of what is submitted, its forms, its request and the button. */
 export class Submission {
@@ -138,7 +135,7 @@ export class Submission {
       const { estimates } = await post_json("/v1/sweeps/plans", JSON.parse(asked));
       if (asked === this.#planned_sweep && !this.#signal.aborted) this.#sweep.expect(duration_range(estimates.cpu_s, estimates.cpu_s_most));
     } catch (error) {
-      // What is wrong with it is said when it is submitted.
+      // A fault is said when the sweep is submitted.
       this.#planned_sweep = "";
       if (!(error instanceof Problem || error instanceof Unreachable)) throw error;
     }

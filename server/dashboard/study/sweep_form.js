@@ -136,7 +136,7 @@ export class SweepForm {
   /** @param {string} together processor time of all jobs; empty while it is not known */
   expect(together) {
     this.#together = together;
-    this.show();
+    this.#say();
   }
 
   show() {
@@ -145,6 +145,11 @@ export class SweepForm {
       field.show();
       field.mark(this.#fault(field));
     }
+    this.#say();
+  }
+
+  /** Says how many jobs it makes; faults that the service has found stay at their fields. */
+  #say() {
     const { jobs } = this;
     this.#said.textContent = jobs === 0 ? "Choose a field and its values."
       : jobs > this.#most_jobs ? `${count(jobs)} jobs; a sweep has at most ${count(this.#most_jobs)}.`
