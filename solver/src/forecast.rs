@@ -67,7 +67,7 @@ pub struct Forecast {
     pub condensations: Sides<u32>,
     /// Its increments, in order.
     pub segments: Vec<Segment>,
-    /// Natural logarithm of the cycles at its end over those at which a layer was worn through to one that wears much faster; 0 where none is.
+    /// Natural logarithm of the cycles at the end over those at which a layer was worn through to one that wears much faster; 0 where none is.
     pub fast_layer: f64,
 }
 
@@ -77,7 +77,7 @@ impl Forecast {
         self.segments.iter().map(|part| part.increments).sum()
     }
 
-    /// Its increments over its cycles.
+    /// Increments over the cycles of the run.
     pub fn course(&self) -> Course {
         let mut course = Course::default();
         for segment in &self.segments {

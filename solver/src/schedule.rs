@@ -9,4 +9,5 @@ pub mod plan;
 pub mod replay;
 pub(crate) mod step;
 pub mod stops;
+pub(crate) mod stroke;
 mod turning_steps;

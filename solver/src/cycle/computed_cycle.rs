@@ -8,8 +8,8 @@ use crate::law::wear::LocalState;
 use crate::model::unworn_contact::radius;
 use crate::number::real_cycles;
 use crate::schedule::equivalent_wear::EquivalentWear;
-use crate::schedule::jump::Stroke;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
+use crate::schedule::stroke::Stroke;
 use crate::sides::Side;
 
 /// Load at a turning point over that at the neutral position from which on a groove is not extrapolated: where a spring has

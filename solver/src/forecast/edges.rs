@@ -22,7 +22,7 @@ pub(super) struct Edges {
 }
 
 impl Edges {
-    /// Those of a scene.
+    /// Edges that a scene may have.
     pub(super) fn new(scene: &Scene) -> Self {
         let wear = scene.surface_wear();
         let fast = Sides::from_fn(|side| {

@@ -46,9 +46,9 @@ pub struct LineForecast {
     pub stations: usize,
     /// Node planes that are condensed together: 1 of sections that only their forces couple.
     pub planes: usize,
-    /// Its increments over its cycles.
+    /// Increments over the cycles of the run.
     pub course: Course,
-    /// Natural logarithm of the cycles at its end over those at which a layer was worn through to one that wears much faster; 0 where none is.
+    /// Natural logarithm of the cycles at the end over those at which a layer was worn through to one that wears much faster; 0 where none is.
     pub fast_layer: f64,
 }
 

@@ -29,7 +29,7 @@ pub struct PointForecast {
     pub most_cells: usize,
     /// Most cells of the grids of both bodies together.
     pub surface_cells: usize,
-    /// Its contact solves over its cycles.
+    /// Contact solves over the cycles of the run.
     pub course: Course,
 }
 

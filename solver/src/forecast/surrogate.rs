@@ -11,7 +11,7 @@ use crate::model::{Layout, expected_wear, unworn_contact};
 use crate::number::{real, real_cycles};
 use crate::record::{Exposed, WornSurface};
 use crate::scene::{Motion, Scene, Tuning};
-use crate::schedule::jump::Stroke;
+use crate::schedule::stroke::Stroke;
 use crate::sides::{Side, Sides};
 
 /// Points of the surrogate, from the middle to the end.

@@ -8,20 +8,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::stroke::Stroke;
 use crate::number::{cycles_at_least, real, real_cycles};
-use crate::scene::{Accuracy, Motion, Scene, Tuning};
+use crate::scene::Accuracy;
 use crate::sides::{Side, Sides};
-
-/// A computed cycle wears `jump` passes at once, so that scar and pressure are skewed toward the last pass, the
-/// pressure by about a third of k jump s E*/b (b: half-width, s: stroke), which stays below this.
-fn largest_skew(accuracy: &Accuracy) -> f64 {
-    let tuning = &accuracy.tuning;
-    tuning.skew.at(accuracy.tolerance).max(tuning.least_skew)
-}
-
-/// The same over the tolerance where the skew is not removed from what is reported. Measured with an inner loop in `McColl`'s scar: the
-/// pressure is off by 9.7 % for 0.29 and by 2.6 % for 0.06.
-const REPORTED_SKEW: f64 = 2.0;
 
 /// A jump without a solution is divided by this; jumps may double again afterwards. Arbitrary: no result depends on it
 /// as long as one of the jumps has a solution.
@@ -40,149 +30,9 @@ const SHORTEST_REJECTED: f64 = 0.01;
 /// lives differ by less than 4e-5 from those without it, for a fifth to the whole of the time.
 const LEAST_OF_DONE: f64 = 0.05;
 
-/// Largest relative change of a coefficient of friction by cycle within a jump, over the tolerance. A jump takes the mean of its
-/// cycles, so that energy and wear are exact to the second order in it, and the reported contact is off by half of it.
-const CHANGE_OF_FRICTION: f64 = 1.0;
-
 /// Floor of the error estimate: where nothing changes, or nothing wears, jumps grow as fast as they may. Any value far
 /// below the smallest tolerance does the same.
 const SMALLEST_ERROR: f64 = 1e-6;
-
-/// Passes of a cycle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Passes {
-    /// One to either side.
-    Whole,
-    /// Several of different lengths: no skew of a jump is removed from what is reported.
-    Unequal,
-}
-
-/// Limits of a jump besides its error.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Stroke {
-    /// Whether it is gross reciprocating sliding: the contact leaves its own width.
-    pub(crate) gross: bool,
-    /// k E*, by which a pass wears off the waves that earlier increments have left; 0 where the slider wears too.
-    pub(crate) smoothing: f64,
-    /// Whether only the receptacle wears, in a groove that is longer than the contact: jumps extrapolate single cycles.
-    pub(crate) is_groove: bool,
-    /// Whether both bodies wear, or one whose wear is in no proportion to the pressure.
-    both: bool,
-    /// Factor on the allowed error of a jump.
-    error_factor: f64,
-    passes: Passes,
-    /// Pressure skew of a single cycle, k s E*/b.
-    pub(crate) skew: f64,
-    /// Cycles of the whole run.
-    cycles: u64,
-    /// Cycles within which the coefficient of friction changes by as much as it may in a jump.
-    even_friction: f64,
-}
-
-impl Stroke {
-    /// The stroke of an amplitude under a contact of a half-width, mm, for the wear rates k_s, k_r in 1/MPa and E* in MPa,
-    /// for a contact that travels over the receptacle by a part of its displacement, and of which a part may stick.
-    pub(crate) fn new(
-        tuning: &Tuning,
-        rates: Sides<f64>,
-        modulus: f64,
-        (amplitude, half_width): (f64, f64),
-        (travel, sticks): (f64, bool),
-        cycles: u64,
-    ) -> Self {
-        let wear = rates.slider + rates.receptacle;
-        let only_receptacle = rates.slider <= 0.0 && rates.receptacle > 0.0;
-        let gross = tuning.is_gross(amplitude, half_width);
-        Self {
-            gross,
-            smoothing: if only_receptacle { wear * modulus } else { 0.0 },
-            is_groove: only_receptacle && tuning.is_gross(amplitude * travel, half_width),
-            both: rates.slider > 0.0 && rates.receptacle > 0.0,
-            error_factor: if gross || sticks || amplitude <= 0.0 {
-                1.0
-            } else {
-                tuning.scar_jump_error
-            },
-            passes: Passes::Whole,
-            skew: wear * 2.0 * amplitude * modulus / half_width,
-            cycles,
-            even_friction: f64::INFINITY,
-        }
-    }
-
-    /// The stroke of a body whose wear is in no proportion to the pressure: the step of a jump lowers the pressure of a longer contact,
-    /// which leaves the wear of other laws as it is.
-    #[must_use]
-    pub(crate) fn of_uneven_wear(self) -> Self {
-        Self { both: true, ..self }
-    }
-
-    /// Limits jumps from a number of cycles on by the change of a coefficient of friction by cycle.
-    pub(crate) fn limit_change_of_friction(&mut self, scene: &Scene, done: u64) {
-        self.even_friction = even_friction(scene, done);
-    }
-
-    /// One that turns between its outermost turning points: several passes of different lengths wear the groove, which the
-    /// extrapolation of two whole ones does not describe.
-    #[must_use]
-    pub(crate) fn turning_inside(self, motion: Motion) -> Self {
-        let amplitude = motion.amplitude_mm().abs();
-        Self {
-            // Half of the path is passed to either side.
-            skew: self.skew * motion.distance_per_cycle_mm() / (4.0 * amplitude),
-            smoothing: 0.0,
-            is_groove: false,
-            passes: Passes::Unequal,
-            ..self
-        }
-    }
-
-    /// Largest estimated error of a jump.
-    fn largest_error(self, accuracy: &Accuracy) -> f64 {
-        let Accuracy {
-            tolerance, tuning, ..
-        } = accuracy;
-        tolerance * self.error_factor * tuning.jump_error.at(*tolerance).max(1.0)
-    }
-
-    /// The largest jump after `done` cycles.
-    fn most(self, accuracy: &Accuracy, done: u64) -> f64 {
-        let Accuracy {
-            tolerance, tuning, ..
-        } = accuracy;
-        let done = real_cycles(done);
-        let most = if self.gross {
-            let share = if self.both {
-                tuning.gross_jump_of_both
-            } else if self.is_groove {
-                tuning.groove_jump_of_done
-            } else {
-                tuning.gross_jump_of_done
-            };
-            (share * tolerance).min(tuning.jump_of_done) * done
-        } else {
-            let sufficient = real_cycles(self.cycles) * tolerance / tuning.sufficient_cycles;
-            let unskewed = largest_skew(accuracy) / self.skew.max(f64::MIN_POSITIVE);
-            let tolerated = REPORTED_SKEW * tolerance / self.skew.max(f64::MIN_POSITIVE);
-            let most = if self.passes == Passes::Unequal && tolerated >= 1.0 {
-                tolerated
-            } else {
-                unskewed.max(sufficient)
-            };
-            (tuning.jump_of_done * done).min(most)
-        };
-        most.min(self.even_friction) / accuracy.refinement.cycles
-    }
-}
-
-/// Cycles after so many within which a coefficient of friction by cycle changes by as much as it may in a jump.
-pub(crate) fn even_friction(scene: &Scene, done: u64) -> f64 {
-    let part = CHANGE_OF_FRICTION * scene.accuracy.tolerance;
-    let table = scene.friction.by_cycle();
-    table.map_or(f64::INFINITY, |table| {
-        table.distance_of_change(real_cycles(done), part)
-    })
-}
 
 /// The least jump after `done` cycles, unless its length is limited.
 pub(crate) fn least_jump(accuracy: &Accuracy, done: u64) -> f64 {

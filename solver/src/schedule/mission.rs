@@ -7,8 +7,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::jump::even_friction;
 use super::stops::{self, Progress};
+use super::stroke::even_friction;
 use crate::number::{cycles_at_least, real_cycles};
 use crate::scene::{Mission, Scene};
 use crate::sides::Side;

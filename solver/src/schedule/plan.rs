@@ -6,8 +6,8 @@
 //! increments is taken.
 
 use super::increments;
-use super::jump::Stroke;
 use super::replay::{ReplayPlan, ReplayedCycle};
+use super::stroke::Stroke;
 use crate::number::{real, real_cycles};
 use crate::scene::{Accuracy, Motion};
 

@@ -5,8 +5,8 @@ use crate::extruded::state::Planes;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::schedule::equivalent_wear::EquivalentWear;
-use crate::schedule::jump::Stroke;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
+use crate::schedule::stroke::Stroke;
 use crate::sides::{Side, Sides};
 
 impl ExtrudedIntegrator {

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::scene::Refinement;
+use crate::schedule::stroke::Passes;
 
 const ACCURACY: Accuracy = Accuracy::from_tolerance(0.02);
 

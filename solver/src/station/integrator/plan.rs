@@ -3,8 +3,8 @@
 use super::LineIntegrator;
 use crate::law::elastic::contact_modulus;
 use crate::scene::{LineShape, Motion};
-use crate::schedule::jump::Stroke;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
+use crate::schedule::stroke::Stroke;
 use crate::station::section::Station;
 use crate::station::state::StationState;
 
