@@ -34,7 +34,7 @@ pub struct SweepRequest {
     pub list: Option<Vec<Changes>>,
 }
 
-/// What a sweep is expected to take.
+/// Expected cost of a sweep.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SweepPlan {
     /// Number of its jobs.

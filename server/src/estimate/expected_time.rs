@@ -26,17 +26,24 @@ pub(crate) const WIDEST: f64 = 4.0;
 
 /// Time of a solve over its forecast, by what the forecast leaves out: likely, and enough in nine of ten cases. Measured in 25 random plated
 /// lives beside each other: 0.5 to 2.7 with layers, 2.6 to 8.5 where most restart; bare presets alone: 0.6 to 1.6.
-fn factors(left_out: LeftOut) -> (f64, f64) {
-    match left_out {
+fn factors(left_out: LeftOut) -> Factors {
+    let (likely, most) = match left_out {
         LeftOut::Little => (1.0, 2.0),
         LeftOut::Restart => (1.0, 4.0),
         LeftOut::Layers => (1.2, 4.0),
         LeftOut::LayersAndRestart => (3.0, 12.0),
-    }
+    };
+    Factors { likely, most }
 }
 
-/// Processor time of a solve, s.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Ends of a range over the forecast.
+struct Factors {
+    likely: f64,
+    most: f64,
+}
+
+/// Range of the time that a solve takes, or still takes, s.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct ExpectedTime {
     /// Likely.
     pub(crate) likely_s: f64,
@@ -45,10 +52,10 @@ pub(crate) struct ExpectedTime {
 }
 
 impl ExpectedTime {
-    /// That of a workload on a machine.
+    /// The range of a workload on a machine, processor time.
     pub(crate) fn of(machine: &MachineFigures, workload: &Workload) -> Self {
         let forecast_s = cpu_s(machine, workload);
-        let (likely, most) = factors(workload.left_out);
+        let Factors { likely, most } = factors(workload.left_out);
         Self {
             likely_s: likely * forecast_s,
             most_s: most * forecast_s,
@@ -59,16 +66,18 @@ impl ExpectedTime {
     pub(crate) fn mean(of: &[Estimate], machine: Option<&MachineFigures>) -> Option<Self> {
         let machine = machine.filter(|_| !of.is_empty())?;
         let each = of.iter().map(|solve| Self::of(machine, &solve.workload));
-        let sum = each.fold((0.0, 0.0), |(likely_s, most_s), one| {
-            (likely_s + one.likely_s, most_s + one.most_s)
+        let sum = each.fold(Self::default(), |sum, one| Self {
+            likely_s: sum.likely_s + one.likely_s,
+            most_s: sum.most_s + one.most_s,
         });
+        let solves = real(of.len());
         Some(Self {
-            likely_s: sum.0 / real(of.len()),
-            most_s: sum.1 / real(of.len()),
+            likely_s: sum.likely_s / solves,
+            most_s: sum.most_s / solves,
         })
     }
 
-    /// That of so many solves.
+    /// The sum over so many solves of this range.
     pub(crate) fn times(self, solves: u64) -> Self {
         let solves = real(solves);
         Self {

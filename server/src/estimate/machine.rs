@@ -40,8 +40,6 @@ pub fn cpu_s(machine: &MachineFigures, workload: &Workload) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use solver::forecast::Course;
-
     use super::coefficients::checked;
     use super::*;
     use crate::estimate::workload::{Condensations, LeftOut};
@@ -98,7 +96,6 @@ mod tests {
             cells: (0.0, 0.0),
             stations: 1,
             planes: 1,
-            course: Course::default(),
             left_out: LeftOut::Little,
             companions: Vec::new(),
         };

@@ -3,17 +3,8 @@
 //! The work of a run is not even over its cycles: jumps grow, and a run to the base metal ends far before its last cycle. The share of it
 //! that is done at a cycle is that of the forecast; of a finer run that of the run before it, which is measured.
 
-use crate::estimate::expected_time::{COMPANIONS, MOST_OF_RUN, RESTART, WIDEST};
+use crate::estimate::expected_time::{COMPANIONS, ExpectedTime, MOST_OF_RUN, RESTART, WIDEST};
 use crate::estimate::foreseen::Foreseen;
-
-/// Time that a solve still takes, s.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Remaining {
-    /// Likely.
-    pub(super) likely_s: f64,
-    /// Enough in nine of ten cases.
-    pub(super) most_s: f64,
-}
 
 /// Stage of a solve, with the seconds since its start at which it began.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,43 +83,42 @@ impl RemainingTime {
     }
 
     /// The time that is left at some seconds after the start; none before anything is known of it.
-    pub(super) fn remaining(&self, at_s: f64) -> Option<Remaining> {
-        let Remaining { likely_s, most_s } = match self.running {
+    pub(super) fn remaining(&self, at_s: f64) -> Option<ExpectedTime> {
+        let ExpectedTime { likely_s, most_s } = match self.running {
             Running::First { since_s } => self.of_first(at_s - since_s)?,
             Running::Companions { since_s } => self.of_companions(at_s, since_s)?,
             Running::Again { since_s } => self.of_run_again(at_s - since_s)?,
         };
-        Some(Remaining {
+        Some(ExpectedTime {
             likely_s: likely_s.max(most_s / WIDEST),
             most_s,
         })
     }
 
-    fn of_first(&self, taken_s: f64) -> Option<Remaining> {
+    fn of_first(&self, taken_s: f64) -> Option<ExpectedTime> {
         let run = self.foreseen_run(taken_s)?;
-        let (companions, restart) = self.to_come(run.whole_s);
-        Some(Remaining {
+        let companions = self.of_all_companions(run.whole_s);
+        Some(ExpectedTime {
             likely_s: run.left_s + companions,
-            most_s: MOST_OF_RUN * (run.left_s + companions) + restart,
+            most_s: MOST_OF_RUN * (run.left_s + companions) + self.of_restart(run.whole_s),
         })
     }
 
-    fn of_companions(&self, at_s: f64, since_s: f64) -> Option<Remaining> {
+    fn of_companions(&self, at_s: f64, since_s: f64) -> Option<ExpectedTime> {
         let first_s = self.first.last()?.at_s;
-        let (companions, restart) = self.to_come(first_s);
-        let left = (companions - (at_s - since_s)).max(0.0);
-        Some(Remaining {
+        let left = (self.of_all_companions(first_s) - (at_s - since_s)).max(0.0);
+        Some(ExpectedTime {
             likely_s: left,
-            most_s: MOST_OF_RUN * left + restart,
+            most_s: MOST_OF_RUN * left + self.of_restart(first_s),
         })
     }
 
-    fn of_run_again(&self, taken_s: f64) -> Option<Remaining> {
+    fn of_run_again(&self, taken_s: f64) -> Option<ExpectedTime> {
         let run = match self.share_of_first(self.now?.cycle) {
             Some(done) => Run::of(taken_s, done, 1.0 - done)?,
             None => self.foreseen_run(taken_s)?,
         };
-        Some(Remaining {
+        Some(ExpectedTime {
             likely_s: run.left_s,
             most_s: MOST_OF_RUN * run.left_s,
         })
@@ -141,18 +131,22 @@ impl RemainingTime {
         Run::of(taken_s, done, self.foreseen.left(cycle))
     }
 
-    /// Expected seconds of the companions after a first run of so many, and of a finer run at most.
-    fn to_come(&self, first_s: f64) -> (f64, f64) {
-        let Foreseen {
-            estimates_errors,
-            may_restart,
-            ..
-        } = self.foreseen;
-        let if_so = |is: bool, share: f64| if is { share * first_s } else { 0.0 };
-        (
-            if_so(estimates_errors, COMPANIONS),
-            if_so(may_restart, RESTART),
-        )
+    /// Expected seconds of the companions of a first run of so many.
+    fn of_all_companions(&self, first_s: f64) -> f64 {
+        if self.foreseen.estimates_errors {
+            COMPANIONS * first_s
+        } else {
+            0.0
+        }
+    }
+
+    /// Seconds that a finer run takes at most after a first run of so many.
+    fn of_restart(&self, first_s: f64) -> f64 {
+        if self.foreseen.may_restart {
+            RESTART * first_s
+        } else {
+            0.0
+        }
     }
 
     /// The share of the time of the first run that it had taken at a cycle.
@@ -173,7 +167,7 @@ struct Run {
 }
 
 impl Run {
-    /// That of a run that has taken so many seconds for a share of its work, and has another one left.
+    /// A run that has taken so many seconds for a share of its work, and has another one left.
     fn of(taken_s: f64, done: f64, left: f64) -> Option<Self> {
         let whole_s = taken_s / done;
         (done > 0.0).then_some(Self {

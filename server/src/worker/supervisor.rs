@@ -86,7 +86,11 @@ async fn run<E: Employer>(
         .as_ref()
         .map_or(0, ClaimedCheckpoint::cycle);
     tracing::info!(from_cycle, memory_mb = claim.memory_mb, "job claimed");
-    let mut buffer = UpdateBuffer::new(cycles, from_cycle, Foreseen::of(&claim.spec));
+    let specification = claim.spec.clone();
+    let foreseen = tokio::task::spawn_blocking(move || Foreseen::of(&specification));
+    // Without it no remaining time is stated.
+    let foreseen = foreseen.await.unwrap_or_default();
+    let mut buffer = UpdateBuffer::new(cycles, from_cycle, foreseen);
     let started = if let Some(cause) = attempt.round.end() {
         Err(declined(cause))
     } else {

@@ -190,8 +190,6 @@ pub(crate) fn program() -> String {
 
 #[cfg(test)]
 mod tests {
-    use solver::forecast::Course;
-
     use super::*;
     use crate::estimate::workload::{Condensations, LeftOut};
 
@@ -213,7 +211,6 @@ mod tests {
                 cells: (0.0, 0.0),
                 stations: 1,
                 planes: 1,
-                course: Course::default(),
                 left_out: LeftOut::Little,
                 companions: Vec::new(),
             },

@@ -195,7 +195,7 @@ fn mistyped_names_are_answered_with_a_suggestion() {
 
 #[test]
 fn a_value_in_another_unit_is_accepted_with_a_warning() {
-    // Those of a law's range are not about units.
+    // Warnings of a law's range are not about units.
     let of_units = |resolved: &Resolved| {
         let mut warnings = resolved.warnings.clone();
         warnings.retain(|warning| warning.detail.contains("was it meant"));

@@ -10,7 +10,7 @@ fn of(text: &str) -> RemainingTime {
     RemainingTime::new(Foreseen::of(text), 0)
 }
 
-fn left(time: &RemainingTime, at_s: f64) -> Remaining {
+fn left(time: &RemainingTime, at_s: f64) -> ExpectedTime {
     time.remaining(at_s).expect("it is known")
 }
 
@@ -30,7 +30,7 @@ fn a_life_is_foreseen_to_its_end_and_not_to_the_last_cycle() {
     let done = foreseen.share(early);
     assert!((0.1..0.8).contains(&done), "{done}");
     time.computed(early, 10.0);
-    let Remaining { likely_s, most_s } = left(&time, 10.0);
+    let ExpectedTime { likely_s, most_s } = left(&time, 10.0);
     let whole = 10.0 / done;
     assert!(is_near(
         most_s,
@@ -56,7 +56,7 @@ fn a_run_to_its_last_cycle_takes_no_time_there() {
     time.computed(100, 10.0);
     assert!(left(&time, 10.0).likely_s > 0.1);
     time.computed(200, 12.0);
-    let Remaining { likely_s, most_s } = left(&time, 12.0);
+    let ExpectedTime { likely_s, most_s } = left(&time, 12.0);
     assert!(likely_s.abs() < 1e-12 && most_s.abs() < 1e-12);
 }
 
@@ -79,7 +79,7 @@ fn companions_may_be_followed_by_a_finer_run_which_goes_as_the_first_one_went() 
     time.computed(10, 40.0);
     // Companions have no cycles.
     time.companions(40.0);
-    let Remaining { likely_s, most_s } = left(&time, 40.0);
+    let ExpectedTime { likely_s, most_s } = left(&time, 40.0);
     assert!(
         is_near(likely_s, 60.0) && is_near(most_s, MOST_OF_RUN * 60.0),
         "{likely_s}"

@@ -1,4 +1,4 @@
-//! `POST /v1/sweeps/plans`: what a sweep is expected to take; nothing is queued.
+//! `POST /v1/sweeps/plans`: expected cost of a sweep; nothing is queued.
 
 use api::sweep::{SweepPlan, SweepRequest};
 use axum::Json;
@@ -9,7 +9,7 @@ use crate::http::app::App;
 use crate::http::extract::JsonBody;
 use crate::http::problem::ProblemResponse;
 
-/// What a sweep is expected to take; nothing is queued. The first request measures the speed of the machine, which takes a second or two.
+/// Expected cost of a sweep; nothing is queued. The first request measures the speed of the machine, which takes a second or two.
 #[utoipa::path(
     post,
     path = "/v1/sweeps/plans",

@@ -83,6 +83,6 @@ fn copy_file(
     std::fs::copy(source, target).map_err(|cause| file(source, cause))?;
     sync(target)?;
     sync(folder)?;
-    // What was written is what counts.
+    // The copy is checked, not only the source.
     Ok(checked.and_then(|()| integrity::check_file(entry, target)))
 }
