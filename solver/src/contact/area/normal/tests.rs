@@ -241,3 +241,44 @@ fn an_annulus_that_wears_alone_converges_however_much_it_wears() {
         assert!(factor < 1e4 || share < 1e-2, "{factor}: {share}");
     }
 }
+
+/// Random scars that fit the sphere, with pockets where a softer layer is through, solved from the pressure of a part of the contact: many
+/// cells overlap a little then.
+#[test]
+fn worn_contacts_are_solved_from_any_part_of_them() {
+    let mut random = fastrand::Rng::with_seed(4);
+    for _ in 0..60 {
+        let mut between = |least: f64, most: f64| least * (most / least).powf(random.f64());
+        let cells = Cells {
+            along_x: 128,
+            along_z: 48,
+            dx_mm: 1.25e-3,
+            dz_mm: 1.25e-3 * between(1.0, 4.0),
+        };
+        let (depth, pocket, radius) = (between(1e-5, 5e-4), between(1e-6, 1e-4), between(0.3, 1.0));
+        let (wear, soft) = (between(1e-11, 1e-7), between(1.0, 1e3));
+        let (middle, begin) = (between(1e-4, 0.02), between(1e-4, 0.02));
+        let is_soft = |x: f64, z: f64| (x - middle).hypot(z) < 0.012;
+        let gap = cells.map(|x, z| {
+            let unworn = 0.5 * (x * x + z * z) / radius;
+            unworn.max(depth) + if is_soft(x, z) { pocket } else { 0.0 }
+        });
+        let wear = cells.map(|x, z| if is_soft(x, z) { soft * wear } else { wear });
+        let begun = |x: f64, z: f64| (x - begin).hypot(z) < 0.006;
+        let mut pressure = cells.map(|x, z| if begun(x, z) { 1.0 } else { 0.0 });
+        let problem = NormalProblem {
+            gap_mm: &gap,
+            wear_mm_per_mpa: &wear,
+            force_n: 0.3,
+        };
+        let mut contact = NormalContact::new(cells, 69e3);
+        let mut solved = |pressure: &mut [f64]| {
+            let found = contact.solve(&problem, pressure);
+            found.expect("the contact has a solution")
+        };
+        let (warm, cold) = (solved(&mut pressure), solved(&mut vec![0.0; cells.count()]));
+        let off = warm.approach_mm / cold.approach_mm - 1.0;
+        assert!(off.abs() < 1e-7, "{warm:?} {cold:?}");
+        assert!(warm.iterations < MOST_ITERATIONS / 2, "{warm:?}");
+    }
+}
