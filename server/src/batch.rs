@@ -161,7 +161,7 @@ impl Request {
 /// Returns what a sweep is expected to take, by some of its jobs.
 ///
 /// # Errors
-/// [`Refused`] if it cannot be read, or is too large.
+/// [`Refused`] if it cannot be read, is too large, or has faults in these jobs.
 pub fn plan_sweep(request: &[u8], machine: Option<&MachineFigures>) -> Result<SweepPlan, Refused> {
     let request = variation::read(request)?;
     let (jobs, sample) = sweep::sampled(&request)?;

@@ -44,16 +44,23 @@ pub(super) struct Expanded {
     pub(super) jobs: u64,
 }
 
-/// Returns the number of jobs of a sweep, and the estimates of some of them; those with a fault are left out.
+/// Returns the number of jobs of a sweep, and the estimates of some of them.
 ///
 /// # Errors
-/// [`Refused`] for sizes beyond the limits.
+/// [`Refused`] for sizes beyond the limits, and with the faults of these jobs.
 pub(super) fn sampled(request: &SweepRequest) -> Result<(u64, Vec<Estimate>), Refused> {
     check_size(request).map_err(Refused::Faults)?;
     let variations = Variations::of(request);
     let jobs = variations.len();
-    let some = sample::timed(jobs).filter_map(|position| variations.at(position).ok());
-    Ok((jobs, some.map(|variation| variation.estimate).collect()))
+    let (mut some, mut faults) = (Vec::new(), BTreeSet::new());
+    for position in sample::timed(jobs) {
+        match variations.at(position) {
+            Ok(variation) => some.push(variation.estimate),
+            Err(found) => faults.extend(found),
+        }
+    }
+    refuse(faults)?;
+    Ok((jobs, some))
 }
 
 /// Returns the first jobs of a sweep, in order.
@@ -77,11 +84,7 @@ pub(super) fn expand(request: &SweepRequest, accept: &Accept<'_>) -> Result<Expa
             break;
         }
     }
-    if !faults.is_empty() {
-        let reported = faults.into_iter().take(FAULT_LIMIT);
-        let faults = reported.map(|(pointer, detail)| Fault { pointer, detail });
-        return Err(Refused::Faults(faults.collect()));
-    }
+    refuse(faults)?;
     let estimates = first.iter().map(|variation| &variation.estimate);
     estimates.chain(&sample).try_for_each(accept)?;
     Ok(Expanded {
@@ -89,6 +92,16 @@ pub(super) fn expand(request: &SweepRequest, accept: &Accept<'_>) -> Result<Expa
         sample,
         jobs,
     })
+}
+
+/// Refuses faults, if there are any: each a pointer and its detail.
+fn refuse(faults: BTreeSet<(String, String)>) -> Result<(), Refused> {
+    if faults.is_empty() {
+        return Ok(());
+    }
+    let reported = faults.into_iter().take(FAULT_LIMIT);
+    let faults = reported.map(|(pointer, detail)| Fault { pointer, detail });
+    Err(Refused::Faults(faults.collect()))
 }
 
 /// Number of jobs of a sweep that are queued when it is submitted.

@@ -57,13 +57,21 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn a_sweep_of_jobs_that_are_not_valid_has_no_time_and_one_that_is_too_large_no_plan() {
+    async fn a_plan_refuses_what_the_sweep_would_be_refused_for() {
         let service = Service::new().await;
-        let sweep = json!({"base": {"system": {"kind": "dimm"}}, "grid": {"/cycles": [0]}});
-        let (_, _, plan) = service.post("/v1/sweeps/plans", &sweep.to_string()).await;
-        assert_eq!(plan, json!({"jobs": 1, "estimates": {}}));
-        let none = json!({"base": {"system": {"kind": "dimm"}}, "grid": {}});
-        let (status, _, problem) = service.post("/v1/sweeps/plans", &none.to_string()).await;
-        assert_eq!(status, 422, "{problem}");
+        let base = json!({"system": {"kind": "dimm"}, "cycles": 100});
+        for grid in [
+            json!({"/cycles": [0]}),
+            json!({"/cycles": [10, 0]}),
+            json!({"cycles": [10]}),
+            json!({"/none": [1]}),
+            json!({}),
+        ] {
+            let sweep = json!({"base": base, "grid": grid}).to_string();
+            let (status, _, planned) = service.post("/v1/sweeps/plans", &sweep).await;
+            let (_, _, submitted) = service.post("/v1/sweeps", &sweep).await;
+            assert_eq!(status, 422, "{planned}");
+            assert_eq!(planned["faults"], submitted["faults"]);
+        }
     }
 }
