@@ -12,7 +12,7 @@ use solver::scene::{Accuracy, Motion, Scene, WearLaw};
 use solver::sides::Sides;
 
 pub(crate) const RATE: f64 = 0.004 / 1700.0;
-const CYCLES: u32 = 20;
+const CYCLES: u32 = 10;
 
 /// The sprung contact's bodies and a wipe over 0.8 mm, 180 times the contact's width, at a tolerance of 10 %.
 pub(crate) fn wipe(rates: Sides<f64>) -> Scene {

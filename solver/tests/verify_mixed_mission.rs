@@ -45,9 +45,8 @@ fn all_cycles_of_mixed_blocks_are_done() {
 }
 
 /// After many repetitions the order within one is of no account.
-#[test]
-fn mixed_blocks_wear_like_many_repetitions() {
-    for (name, slider) in [("pad", None), ("pad and tip", Some(0.1 * RATE))] {
+fn mixed_blocks_wear_like_repetitions(cases: &[(&str, Option<f64>)]) {
+    for &(name, slider) in cases {
         let in_order = vibrated_and_wiped(60, slider);
         let reference = last_profiles(&one_by_one(in_order.clone()));
         let profiles = last_profiles(&mixed(in_order));
@@ -61,6 +60,19 @@ fn mixed_blocks_wear_like_many_repetitions() {
             100.0 * tip
         );
         assert!(pad.max(tip) < 0.02, "{name}: {pad} {tip}");
+    }
+}
+
+#[test]
+fn mixed_blocks_wear_like_many_repetitions() {
+    mixed_blocks_wear_like_repetitions(&[("pad and tip", Some(0.1 * RATE))]);
+}
+
+mod long {
+    #[test]
+    #[ignore = "long: takes 15 s"]
+    fn mixed_blocks_wear_a_pad_like_many_repetitions() {
+        super::mixed_blocks_wear_like_repetitions(&[("pad", None)]);
     }
 }
 

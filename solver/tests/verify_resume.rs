@@ -122,7 +122,7 @@ fn a_run_in_zones_resumes(times: usize) {
     });
     scene.accuracy.tuning.zone_width = 0.5;
     scene.accuracy.tuning.fewest_zone_nodes = 20.0;
-    scene.output.snapshots_at_cycles = vec![4, 20];
+    scene.output.snapshots_at_cycles = vec![4, 10];
     scene.output.fields = true;
     let (summary, _) = resumes_to_the_same_bits("wipe", &scene, times);
     assert!(summary.resolution.relocations >= 2, "{summary:?}");

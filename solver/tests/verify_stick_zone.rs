@@ -120,7 +120,7 @@ fn the_stick_zone_of_partial_slip_stands_for_ever() {
     for (worn, increments, cycles) in [
         (Side::Receptacle, None, CYCLES[2]),
         (Side::Slider, None, CYCLES[1]),
-        (Side::Receptacle, Some(80), CYCLES[1]),
+        (Side::Receptacle, Some(80), CYCLES[0]),
     ] {
         let mut scene = scene(worn);
         scene.cycles = cycles;

@@ -194,7 +194,7 @@ fn wide_contacts_of_other_laws_and_plans_wear_like_narrow_ones() {
             slider: 1e-6,
             receptacle: 3e-6,
         };
-        let [narrow, wide] = [160, 400].map(|nodes| {
+        let [narrow, wide] = [160, 330].map(|nodes| {
             let mut scene = scene(nodes, amplitude, rates);
             change(&mut scene);
             slide(&scene)

@@ -196,7 +196,7 @@ fn over_width(
 /// through the block, all of which carry the load.
 #[test]
 fn surfaces_and_cuts_carry_the_load() {
-    let scene = with_fields(8, Ends::Free);
+    let scene = with_fields(6, Ends::Free);
     let Dimension::Extruded(own) = scene.dimension else {
         panic!("it is extruded");
     };

@@ -28,7 +28,7 @@ pub(super) fn extruded(layers: usize, ends: Ends, cycles: u64) -> Scene {
 #[test]
 fn a_resumed_run_of_extruded_bodies_reaches_the_bits_of_the_undisturbed_one() {
     let mut scene = extruded(2, Ends::Free, 12);
-    scene.accuracy.increments_per_cycle = Some(120);
+    scene.accuracy.increments_per_cycle = Some(60);
     let rate = 2.5761e-6;
     let law = WearLaw::Archard {
         k_over_h_per_mpa: rate,
