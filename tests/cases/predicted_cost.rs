@@ -6,6 +6,7 @@
 
 use fastrand::Rng;
 use serde_json::{Value, json};
+use server::bench::BenchError;
 use server::bench::predictions::{Pair, TOLERANCES, compare, compare_specification, scenes};
 use server::estimate::machine;
 
@@ -122,20 +123,24 @@ mod night {
 
     /// Processor time depends on other load of the machine: it is run alone.
     #[test]
-    #[ignore = "night: 40 min"]
+    #[ignore = "night: an hour"]
     fn nine_of_ten_presets_and_plated_lives_take_no_longer_than_their_plans_say() {
         let machine = machine::measure().expect("the machine can be measured");
         let systems = ["fuzz_button", "sd_card", "dimm", "zif", "cylinder_on_flat"];
         let presets = systems.map(|kind| (kind.to_owned(), json!({"system": {"kind": kind}})));
         let presets = presets.map(|(name, preset)| (name, preset.to_string()));
-        let mut random = Rng::with_seed(1);
+        let mut random = Rng::with_seed(2);
         let standard = json!({"preset": "standard"});
-        let lives = (0..40).map(|n| (format!("life {n}"), random_life(&mut random, &standard)));
+        let lives = (0..44).map(|n| (format!("life {n}"), random_life(&mut random, &standard)));
         let solves: Vec<_> = presets.into_iter().chain(lives).collect();
-        let mut within = 0;
+        let (mut within, mut solved) = (0, 0);
         for (name, spec) in &solves {
-            let pairs = compare_specification(&tests::binary(), &machine, spec);
-            let pairs = pairs.unwrap_or_else(|error| panic!("{name}: {error:?}: {spec}"));
+            let pairs = match compare_specification(&tests::binary(), &machine, spec) {
+                // Strains of a small point may be beyond what is simulated.
+                Err(BenchError::Refused(_)) => continue,
+                pairs => pairs.unwrap_or_else(|error| panic!("{name}: {error:?}: {spec}")),
+            };
+            solved += 1;
             let (likely, most) = (named(&pairs, "cpu_s"), named(&pairs, "cpu_s_most"));
             println!(
                 "{name}: {:.1} to {:.1} s foreseen, {:.1} s taken",
@@ -143,7 +148,7 @@ mod night {
             );
             within += usize::from(most.measured <= most.expected);
         }
-        println!("{within} of {} within their ranges", solves.len());
-        assert!(10 * within >= 9 * solves.len(), "{within}");
+        println!("{within} of {solved} within their ranges");
+        assert!(solved > 40 && 10 * within >= 9 * solved, "{within}");
     }
 }

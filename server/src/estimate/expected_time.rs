@@ -24,14 +24,16 @@ pub(crate) const MOST_OF_RUN: f64 = 2.5;
 /// Upper end of a range over its likely value, at most.
 pub(crate) const WIDEST: f64 = 4.0;
 
-/// Time of a solve over its forecast, by what the forecast leaves out: likely, and enough in nine of ten cases. Measured in 25 random plated
-/// lives beside each other: 0.5 to 2.7 with layers, 2.6 to 8.5 where most restart; bare presets alone: 0.6 to 1.6.
+/// Time of a solve over its forecast, by what the forecast leaves out: likely, and enough in nine of ten cases. Measured: bare presets 0.6
+/// to 1.6, plated ones 0.7 to 1; of 24 random plated lives 1.1 to 2.6 where they did not restart and 4.6 to 6.6 where they did, once 13; 0.4 to 12
+/// where most restart, once 21.
 fn factors(left_out: LeftOut) -> Factors {
     let (likely, most) = match left_out {
         LeftOut::Little => (1.0, 2.0),
         LeftOut::Restart => (1.0, 4.0),
-        LeftOut::Layers => (1.2, 4.0),
-        LeftOut::LayersAndRestart => (3.0, 12.0),
+        LeftOut::Layers => (1.0, 4.0),
+        LeftOut::LayersUntilWorn => (1.65, 6.6),
+        LeftOut::LayersAndRestart => (3.5, 14.0),
     };
     Factors { likely, most }
 }

@@ -163,6 +163,8 @@ pub enum LeftOut {
     Restart,
     /// Details of the wear of layers, and a restart, which few of these runs need.
     Layers,
+    /// The same of a run until layers are worn, of which some restart for their increments.
+    LayersUntilWorn,
     /// Details of the wear of layers, and a restart, which most of these runs need.
     LayersAndRestart,
 }
@@ -173,6 +175,7 @@ fn left_out(scene: &Scene, restarts_with_layers: bool) -> LeftOut {
         (false, false) => LeftOut::Little,
         (false, true) => LeftOut::Restart,
         (true, true) if restarts_with_layers => LeftOut::LayersAndRestart,
+        (true, true) if scene.has_stops() => LeftOut::LayersUntilWorn,
         (true, _) => LeftOut::Layers,
     }
 }
