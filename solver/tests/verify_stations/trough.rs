@@ -121,3 +121,19 @@ fn turned_ring_sinks_into_a_trough_of_its_wire() {
         assert!(energy.abs() < 1e-4, "{energy}");
     }
 }
+
+/// At 90 degrees a motion in the plane of the ring slips along the wire, as torsion does, and digs its trough. At every place friction opposes the
+/// slip, on walls too: the energy is mu times the work of the pressure, mu V/k.
+#[test]
+fn places_of_a_ring_beside_90_degrees_have_walls_too() {
+    let scene = ring(Top::Even, 9, 100);
+    let found = solved(&scene).last;
+    let trough = trough(WIRE, sliding_wear(&scene, COPPER_WEAR));
+    let area = found.stations[4].worn_area_mm2.receptacle / trough.area_mm2;
+    let work = found.worn_volume_mm3.receptacle / COPPER_WEAR;
+    let energy = found.dissipated_energy_mj / (1.21 * work) - 1.0;
+    println!(
+        "ring, in the plane: area at 90 deg {area:.4} of the trough's, energy off mu V/k by {energy:.1e}"
+    );
+    assert!((area - 1.0).abs() < 1e-2 && energy.abs() < 1e-4);
+}
