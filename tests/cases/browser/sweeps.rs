@@ -35,10 +35,11 @@ async fn a_sweep_from_the_form_is_watched_to_its_end_and_its_map_opens_jobs() {
     let offered = "[...document.querySelectorAll('.swept option')].some((option) => option.value === '/load/n_per_mm')";
     browser.wait_for(offered).await;
 
-    // A value that is refused is said to be so at its field.
+    // A value that is refused is said to be so at its field, before it is submitted and then.
     set(&browser, 0, "select", "/load/n_per_mm").await;
     set(&browser, 0, "input.values", "-100, 200, 300").await;
     browser.shows("button.primary", "Submit 3 jobs").await;
+    browser.shows(".swept .fault", "-100 is outside").await;
     browser.click("button.primary").await;
     browser.shows(".swept .fault", "-100 is outside").await;
     let refused = browser.complaints().await;
