@@ -30,8 +30,7 @@ pub(crate) const WIDEST: f64 = 4.0;
 fn factors(left_out: LeftOut) -> Factors {
     let (likely, most) = match left_out {
         LeftOut::Little => (1.0, 2.0),
-        LeftOut::Restart => (1.0, 4.0),
-        LeftOut::Layers => (1.0, 4.0),
+        LeftOut::Restart | LeftOut::Layers => (1.0, 4.0),
         LeftOut::LayersUntilWorn => (1.65, 6.6),
         LeftOut::LayersAndRestart => (3.5, 14.0),
     };
