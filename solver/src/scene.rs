@@ -173,7 +173,7 @@ impl Scene {
     }
 
     /// Whether a run may end before its last cycle by a condition of the user.
-    pub fn has_stops(&self) -> bool {
+    pub(crate) fn has_stops(&self) -> bool {
         let conduction = self.conduction.known();
         let limited = conduction.is_some_and(|electrical| !electrical.stop_mohm.is_empty());
         limited || !self.stop.is_empty()

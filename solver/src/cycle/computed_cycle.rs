@@ -9,7 +9,7 @@ use crate::model::unworn_contact::radius;
 use crate::number::real_cycles;
 use crate::schedule::equivalent_wear::EquivalentWear;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
-use crate::schedule::stroke::Stroke;
+use crate::schedule::stroke::{Movement, Stroke};
 use crate::sides::Side;
 
 /// Load at a turning point over that at the neutral position from which on a groove is not extrapolated: where a spring has
@@ -132,11 +132,12 @@ impl Integrator<'_> {
             &scene.accuracy.tuning,
             wear,
             modulus,
-            (amplitude, state.mean_half_width),
-            (
-                radius(scene) / scene.slider.shape.radius_mm,
-                interface.sticks,
-            ),
+            Movement {
+                amplitude,
+                half_width: state.mean_half_width,
+                travel: radius(scene) / scene.slider.shape.radius_mm,
+                sticks: interface.sticks,
+            },
             self.expected_cycles,
         );
         if scene.motion.turns_inside() {

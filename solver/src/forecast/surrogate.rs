@@ -11,7 +11,7 @@ use crate::model::{Layout, expected_wear, unworn_contact};
 use crate::number::{real, real_cycles};
 use crate::record::{Exposed, WornSurface};
 use crate::scene::{Motion, Scene, Tuning};
-use crate::schedule::stroke::Stroke;
+use crate::schedule::stroke::{Movement, Stroke};
 use crate::sides::{Side, Sides};
 
 /// Points of the surrogate, from the middle to the end.
@@ -138,8 +138,12 @@ impl Scar {
             &self.tuning,
             self.shares.map(|share| share * self.wear),
             self.modulus,
-            (self.amplitude, self.half_width),
-            (self.radius / scene.slider.shape.radius_mm, self.sticks),
+            Movement {
+                amplitude: self.amplitude,
+                half_width: self.half_width,
+                travel: self.radius / scene.slider.shape.radius_mm,
+                sticks: self.sticks,
+            },
             self.cycles,
         );
         stroke.is_groove &= self.passes_are_even;

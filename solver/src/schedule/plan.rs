@@ -134,6 +134,7 @@ impl CyclePlan {
 mod tests {
     use super::*;
     use crate::scene::Tuning;
+    use crate::schedule::stroke::Movement;
     use crate::sides::Sides;
 
     const ACCURACY: Accuracy = Accuracy::from_tolerance(0.02);
@@ -143,17 +144,20 @@ mod tests {
         period_s: 1.0,
     };
 
-    /// A stroke of 50 half-widths under a wear rate k, 1/MPa, of the receptacle, and of the slider, with E* = 1 MPa.
+    /// Strokes of half-widths under wear rates k, 1/MPa, with E* = 1 MPa.
+    fn stroke_of(amplitude: f64, rates: Sides<f64>) -> Stroke {
+        let movement = Movement {
+            amplitude,
+            half_width: 1.0,
+            travel: 1.0,
+            sticks: false,
+        };
+        Stroke::new(&Tuning::FITTED, rates, 1.0, movement, 1_000)
+    }
+
+    /// A stroke of 50 half-widths.
     fn stroke(receptacle: f64, slider: f64) -> Stroke {
-        let rates = Sides { slider, receptacle };
-        Stroke::new(
-            &Tuning::FITTED,
-            rates,
-            1.0,
-            (50.0, 1.0),
-            (1.0, false),
-            1_000,
-        )
+        stroke_of(50.0, Sides { slider, receptacle })
     }
 
     fn contact(half_width: f64) -> Followed {
@@ -213,7 +217,6 @@ mod tests {
             slider: 0.0,
             receptacle: 1.2,
         };
-        let short = Stroke::new(&Tuning::FITTED, rates, 1.0, (0.5, 1.0), (1.0, false), 1_000);
-        assert_eq!(plan(&ACCURACY, short), 1_000);
+        assert_eq!(plan(&ACCURACY, stroke_of(0.5, rates)), 1_000);
     }
 }

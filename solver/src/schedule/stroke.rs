@@ -28,16 +28,29 @@ pub(super) enum Passes {
     Unequal,
 }
 
+/// Movement of a contact.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Movement {
+    /// Amplitude, mm.
+    pub(crate) amplitude: f64,
+    /// Half-width of the contact, mm.
+    pub(crate) half_width: f64,
+    /// Part of the displacement by which the contact travels over the receptacle.
+    pub(crate) travel: f64,
+    /// A part of the contact may stick.
+    pub(crate) sticks: bool,
+}
+
 /// Limits of a jump besides its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stroke {
-    /// Whether it is gross reciprocating sliding: the contact leaves its own width.
+    /// Gross reciprocating sliding: the contact leaves its own width.
     pub(crate) gross: bool,
     /// k E*, by which a pass wears off the waves that earlier increments have left; 0 where the slider wears too.
     pub(crate) smoothing: f64,
-    /// Whether only the receptacle wears, in a groove that is longer than the contact: jumps extrapolate single cycles.
+    /// Only the receptacle wears, in a groove that is longer than the contact: jumps extrapolate single cycles.
     pub(crate) is_groove: bool,
-    /// Whether both bodies wear, or one whose wear is in no proportion to the pressure.
+    /// Both bodies wear, or one whose wear is in no proportion to the pressure.
     pub(super) both: bool,
     /// Factor on the allowed error of a jump.
     pub(super) error_factor: f64,
@@ -51,16 +64,20 @@ pub(crate) struct Stroke {
 }
 
 impl Stroke {
-    /// The stroke of an amplitude under a contact of a half-width, mm, for the wear rates k_s, k_r in 1/MPa and E* in MPa,
-    /// for a contact that travels over the receptacle by a part of its displacement, and of which a part may stick.
+    /// The stroke of a movement, for the wear rates k_s, k_r in 1/MPa and E* in MPa.
     pub(crate) fn new(
         tuning: &Tuning,
         rates: Sides<f64>,
         modulus: f64,
-        (amplitude, half_width): (f64, f64),
-        (travel, sticks): (f64, bool),
+        movement: Movement,
         cycles: u64,
     ) -> Self {
+        let Movement {
+            amplitude,
+            half_width,
+            travel,
+            sticks,
+        } = movement;
         let wear = rates.slider + rates.receptacle;
         let only_receptacle = rates.slider <= 0.0 && rates.receptacle > 0.0;
         let gross = tuning.is_gross(amplitude, half_width);

@@ -65,8 +65,8 @@ pub struct NormalSolution {
 /// Iterations without a smaller residual after which cells join with less pressure. Arbitrary: what converges has a smaller one every few.
 const STALLED: usize = 30;
 
-/// How the iteration goes.
-struct Course {
+/// Convergence of the iteration.
+struct Convergence {
     /// Product of the last residual with the preconditioned one; 0 where directions begin anew.
     product: f64,
     /// Smallest residual, and iterations since.
@@ -76,7 +76,7 @@ struct Course {
     joining: f64,
 }
 
-impl Default for Course {
+impl Default for Convergence {
     fn default() -> Self {
         Self {
             product: 0.0,
@@ -87,7 +87,7 @@ impl Default for Course {
     }
 }
 
-impl Course {
+impl Convergence {
     /// Notes a residual. Where it does not become smaller, cells join with a tenth of the pressure.
     fn note(&mut self, residual: f64) {
         self.since += 1;
@@ -170,7 +170,7 @@ impl NormalContact {
         }
         self.fields.direction.fill(0.0);
         self.displace(problem, pressure);
-        let mut course = Course::default();
+        let mut convergence = Convergence::default();
         let mut residual = f64::INFINITY;
         for iterations in 0..MOST_ITERATIONS {
             let approach_mm = self.fields.mean_gap(problem.gap_mm, pressure);
@@ -185,9 +185,9 @@ impl NormalContact {
                     residual,
                 });
             }
-            course.note(residual);
-            course.product = self.choose_direction(pressure, course.product);
-            self.step(problem, pressure, &mut course);
+            convergence.note(residual);
+            convergence.product = self.choose_direction(pressure, convergence.product);
+            self.step(problem, pressure, &mut convergence);
         }
         self.check_edge(pressure)?;
         Err(AreaError::NotConverged {
@@ -244,7 +244,12 @@ impl NormalContact {
     }
 
     /// Moves the pressure along the direction, and the contact with it.
-    fn step(&mut self, problem: &NormalProblem<'_>, pressure: &mut [f64], course: &mut Course) {
+    fn step(
+        &mut self,
+        problem: &NormalProblem<'_>,
+        pressure: &mut [f64],
+        convergence: &mut Convergence,
+    ) {
         let Fields {
             direction,
             response,
@@ -282,9 +287,9 @@ impl NormalContact {
                 } else {
                     length * stiffness
                 };
-                *pressure = course.joining * stiffness * (approach - u - h);
+                *pressure = convergence.joining * stiffness * (approach - u - h);
                 has_changed = true;
-                course.product = 0.0;
+                convergence.product = 0.0;
             }
         }
         let factor = scale(&self.cells, problem.force_n, pressure);

@@ -6,7 +6,7 @@ use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::schedule::equivalent_wear::EquivalentWear;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
-use crate::schedule::stroke::Stroke;
+use crate::schedule::stroke::{Movement, Stroke};
 use crate::sides::{Side, Sides};
 
 impl ExtrudedIntegrator {
@@ -72,8 +72,12 @@ impl ExtrudedIntegrator {
             &self.plane.accuracy.tuning,
             self.rates(),
             self.contact.interface.modulus,
-            (amplitude, half_width.max(self.common.unworn_half_width)),
-            (1.0, false),
+            Movement {
+                amplitude,
+                half_width: half_width.max(self.common.unworn_half_width),
+                travel: 1.0,
+                sticks: false,
+            },
             self.plane.cycles,
         );
         stroke.is_groove = false;

@@ -4,7 +4,7 @@ use super::LineIntegrator;
 use crate::law::elastic::contact_modulus;
 use crate::scene::{LineShape, Motion};
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
-use crate::schedule::stroke::Stroke;
+use crate::schedule::stroke::{Movement, Stroke};
 use crate::station::section::Station;
 use crate::station::state::StationState;
 
@@ -91,8 +91,12 @@ impl LineIntegrator {
             &self.plane.accuracy.tuning,
             found.rates(),
             contact_modulus(slider, receptacle),
-            (amplitude, half_width.max(f64::MIN_POSITIVE)),
-            (1.0, false),
+            Movement {
+                amplitude,
+                half_width: half_width.max(f64::MIN_POSITIVE),
+                travel: 1.0,
+                sticks: false,
+            },
             self.plane.cycles,
         );
         stroke.is_groove = false;
