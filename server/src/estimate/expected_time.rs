@@ -31,7 +31,7 @@ fn factors(left_out: LeftOut) -> Factors {
     let (likely, most) = match left_out {
         LeftOut::Little => (1.0, 2.0),
         LeftOut::Restart | LeftOut::Layers => (1.0, 4.0),
-        LeftOut::LayersUntilWorn => (1.65, 6.6),
+        LeftOut::WornLayers => (1.65, 6.6),
         LeftOut::LayersAndRestart => (3.5, 14.0),
     };
     Factors { likely, most }

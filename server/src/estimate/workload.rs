@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use solver::effects::{self, Effect};
 use solver::error_control::{companion_scenes, may_restart};
 use solver::extruded::ExtrudedScene;
 use solver::forecast::{LineForecast, forecast, line_forecast, point_forecast};
@@ -163,8 +164,8 @@ pub enum LeftOut {
     Restart,
     /// Details of the wear of layers, and a restart, which few of these runs need.
     Layers,
-    /// The same of a run until layers are worn, of which some restart for their increments.
-    LayersUntilWorn,
+    /// The same of a run that wears most of a layer, of which some restart for their increments.
+    WornLayers,
     /// Details of the wear of layers, and a restart, which most of these runs need.
     LayersAndRestart,
 }
@@ -175,7 +176,7 @@ fn left_out(scene: &Scene, restarts_with_layers: bool) -> LeftOut {
         (false, false) => LeftOut::Little,
         (false, true) => LeftOut::Restart,
         (true, true) if restarts_with_layers => LeftOut::LayersAndRestart,
-        (true, true) if scene.has_stops() => LeftOut::LayersUntilWorn,
+        (true, true) if effects::plan(scene).simulates(Effect::Plating) => LeftOut::WornLayers,
         (true, _) => LeftOut::Layers,
     }
 }
