@@ -10,8 +10,12 @@ use crate::service::Workers;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NewWorkerToken {
-    /// What it is for, such as the name of a cluster: 1 to 100 characters, not all of them blank.
-    #[schema(min_length = 1, max_length = 100, pattern = r"\S")]
+    /// What it is for, such as the name of a cluster: 1 to 100 characters, not all of them blank, none U+0000.
+    #[schema(
+        min_length = 1,
+        max_length = 100,
+        pattern = r"^[^\x00]*[^\s\x00][^\x00]*$"
+    )]
     pub name: String,
 }
 

@@ -15,15 +15,15 @@ use tests::Server;
 /// Checks of every answer.
 const CHECKS: &str = "all";
 /// Answers to requests that the document allows, beside those of success and of missing jobs: a specification may have fields
-/// that contradict each other, a page token may be of another list, a range may lie beyond the file, a name may have a NUL.
+/// that contradict each other, a page token may be of another list, a column may have no such name, a range may lie beyond the file.
 const EXPECTED: &str = r#"
 [[operations]]
 include-method = "POST"
-exclude-name = ["POST /v1/jobs/retry", "POST /v1/worker-tokens"]
+exclude-name = "POST /v1/jobs/retry"
 checks.positive_data_acceptance.expected-statuses = ["2xx", "404", "409", "422"]
 
 [[operations]]
-include-name = ["GET /v1/jobs", "POST /v1/jobs/retry", "GET /v1/sweeps", "GET /v1/studies", "GET /v1/histories", "POST /v1/worker-tokens"]
+include-name = ["GET /v1/jobs", "POST /v1/jobs/retry", "GET /v1/sweeps", "GET /v1/studies", "GET /v1/histories"]
 checks.positive_data_acceptance.expected-statuses = ["2xx", "400"]
 
 [[operations]]
@@ -66,10 +66,13 @@ fn fuzzed(server: &Server, folder: &Path, requests: Requests, chosen: &[&str]) {
         .expect("schemathesis can be started");
     let text = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success(), "{text}");
-    let operations = |name: &str| {
-        let after = text.split_once(name).expect("a number of operations").1;
-        let number = after.trim_start().split(|c: char| !c.is_ascii_digit());
-        number.into_iter().next().map(str::to_owned)
+    let operations = |name: &str| -> u32 {
+        let (_, after) = text.split_once(name).expect("a number of operations");
+        let mut numbers = after.split(|c: char| !c.is_ascii_digit());
+        let number = numbers.find(|number| !number.is_empty());
+        number
+            .and_then(|number| number.parse().ok())
+            .expect("a number")
     };
     assert_eq!(operations("Tested:"), operations("Selected:"), "{text}");
 }
@@ -114,18 +117,22 @@ async fn every_answer_conforms([all, of_a_job]: [Requests; 2]) {
     ignore = "needs the Python package schemathesis"
 )]
 async fn every_answer_to_a_generated_request_conforms_to_the_openapi_document() {
-    let random = Requests {
+    let all = Requests {
         phases: "fuzzing",
         random: "5",
     };
-    every_answer_conforms([random; 2]).await;
+    let of_a_job = Requests {
+        phases: "coverage,fuzzing",
+        ..all
+    };
+    every_answer_conforms([all, of_a_job]).await;
 }
 
 mod long {
     use super::{Requests, every_answer_conforms};
 
     #[tokio::test]
-    #[ignore = "long: takes 200 s; needs the Python package schemathesis"]
+    #[ignore = "long: takes 100 s; needs the Python package schemathesis"]
     async fn every_answer_to_many_requests_conforms_to_the_openapi_document() {
         let all = Requests {
             phases: "coverage,fuzzing",

@@ -135,6 +135,7 @@ export class Submission {
       const { estimates } = await post_json("/v1/sweeps/plans", JSON.parse(asked));
       if (asked === this.#planned_sweep && !this.#signal.aborted) this.#sweep.expect(duration_range(estimates.cpu_s, estimates.cpu_s_most));
     } catch (error) {
+      // Faults of no field of the sweep are said when it is submitted.
       if (error instanceof Problem && asked === this.#planned_sweep && !this.#signal.aborted) this.#sweep.mark(error.faults);
       this.#planned_sweep = "";
       if (!(error instanceof Problem || error instanceof Unreachable)) throw error;
