@@ -129,6 +129,7 @@ mod night {
         let systems = ["fuzz_button", "sd_card", "dimm", "zif", "cylinder_on_flat"];
         let presets = systems.map(|kind| (kind.to_owned(), json!({"system": {"kind": kind}})));
         let presets = presets.map(|(name, preset)| (name, preset.to_string()));
+        // Other lives than those of seed 1, by which the ranges were fitted; 41 of them are not refused.
         let mut random = Rng::with_seed(2);
         let standard = json!({"preset": "standard"});
         let lives = (0..44).map(|n| (format!("life {n}"), random_life(&mut random, &standard)));
@@ -149,6 +150,6 @@ mod night {
             within += usize::from(most.measured <= most.expected);
         }
         println!("{within} of {solved} within their ranges");
-        assert!(solved > 40 && 10 * within >= 9 * solved, "{within}");
+        assert!(solved >= 45 && 10 * within >= 9 * solved, "{within}");
     }
 }
