@@ -155,7 +155,7 @@ mod long {
     use super::*;
 
     #[test]
-    #[ignore = "long: takes 30 s"]
+    #[ignore = "long: takes 25 s"]
     fn a_limit_is_met_at_the_same_cycle_at_a_small_tolerance() {
         a_limit_is_met_at_the_same_cycle(&[(AMPLITUDES[0], 0.005)]);
     }

@@ -70,7 +70,7 @@ fn mixed_blocks_wear_like_many_repetitions() {
 
 mod long {
     #[test]
-    #[ignore = "long: takes 15 s"]
+    #[ignore = "long: takes 6 s"]
     fn mixed_blocks_wear_a_pad_like_many_repetitions() {
         super::mixed_blocks_wear_like_repetitions(&[("pad", None)]);
     }

@@ -165,7 +165,7 @@ mod long {
     use super::*;
 
     #[test]
-    #[ignore = "long: takes 10 s"]
+    #[ignore = "long: takes 6 s"]
     fn what_adds_is_the_dose_of_laws_that_slow_down() {
         what_adds_is_the_dose(&[0.5]);
     }
