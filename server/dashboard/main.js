@@ -69,8 +69,8 @@ async function open_again(signal) {
 addEventListener("hashchange", open_page);
 addEventListener("unhandledrejection", (event) => {
   const { reason } = event;
-  // Said beside the pages, until it is reached again.
-  if (reason instanceof Unreachable) event.preventDefault();
-  else if (reason?.name !== "AbortError") show_message(reason?.message ?? String(reason));
+  // A lost connection is said beside the pages, and a request of a page that was left is no fault.
+  if (reason instanceof Unreachable || reason?.name === "AbortError") event.preventDefault();
+  else show_message(reason?.message ?? String(reason));
 });
 open_page();

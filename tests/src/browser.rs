@@ -192,15 +192,23 @@ impl Browser {
     /// # Panics
     /// If the browser refuses.
     pub async fn cut_off(&self, is_cut_off: bool) {
+        self.network(is_cut_off, 0).await;
+    }
+
+    /// Delays the answers to the requests of the page by a number of milliseconds.
+    ///
+    /// # Panics
+    /// If the browser refuses.
+    pub async fn delay_answers(&self, latency_ms: u32) {
+        self.network(false, latency_ms).await;
+    }
+
+    async fn network(&self, offline: bool, latency_ms: u32) {
         // Bytes a second, beyond those of a network on this machine.
-        let throughput = if is_cut_off { 0 } else { 1_000_000_000 };
-        let conditions = json!({"offline": is_cut_off, "latency": 0, "download_throughput": throughput, "upload_throughput": throughput});
-        let answer = self
-            .post(
-                "chromium/network_conditions",
-                &json!({"network_conditions": conditions}),
-            )
-            .await;
+        let throughput = if offline { 0 } else { 1_000_000_000 };
+        let conditions = json!({"offline": offline, "latency": latency_ms, "download_throughput": throughput, "upload_throughput": throughput});
+        let body = json!({"network_conditions": conditions});
+        let answer = self.post("chromium/network_conditions", &body).await;
         assert!(answer["value"].is_null(), "{answer}");
     }
 
