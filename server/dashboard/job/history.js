@@ -3,6 +3,7 @@
 import { Chart } from "../charts/chart.js";
 import { fetch_json } from "../parts/client.js";
 import { has_ended } from "../parts/status.js";
+import { store, stored } from "../parts/tab_storage.js";
 
 /** Rows that are drawn at most; the service keeps the extremes of every column. */
 const MOST_POINTS = 1000;
@@ -166,6 +167,7 @@ function of_first_run(series) {
 /** The charts of a history; those without values are not shown. */
 export class HistoryCharts {
   #charts;
+  #key;
   /** What was loaded last, and of the first run if a finer one has begun. @type {any} */
   #loaded = null;
   /** @type {any} */
@@ -173,20 +175,23 @@ export class HistoryCharts {
   #is_finer = false;
 
   /**
+   * @param {string} id of the job
    * @param {any} state of the axes
    * @param {AbortSignal} signal
    */
-  constructor(state, signal) {
+  constructor(id, state, signal) {
+    this.#key = `first run ${id}`;
     this.#charts = CHARTS.map((drawn) => ({ drawn, chart: new Chart({ name: drawn.name, signal, state }) }));
     this.nodes = this.#charts.map(({ chart }) => chart.node);
     for (const node of this.nodes) node.hidden = true;
   }
 
-  /** A finer run has begun: what was loaded of the first one stays beside it. */
+  /** A finer run has begun: what this tab has loaded of the first one stays beside it. */
   first_run_ends() {
     if (this.#is_finer) return;
     this.#is_finer = true;
-    this.#first_run = this.#loaded;
+    if (this.#loaded) store(this.#key, this.#loaded);
+    this.#first_run = this.#loaded ?? stored(this.#key);
   }
 
   /**

@@ -33,7 +33,7 @@ export async function job_page(content, { id }, signal) {
   let job = await fetch_json(`/v1/jobs/${id}`, { signal });
   document.title = `${job.spec.name ?? job.spec.system.kind} · fretwear`;
   const head = new Head(job);
-  const history = new HistoryCharts(choices, signal);
+  const history = new HistoryCharts(job.id, choices, signal);
   const snapshots = new SnapshotCharts(choices, signal);
   const maps = new Maps(choices, signal);
   const fields = new Fields(choices, signal);
@@ -61,7 +61,7 @@ export async function job_page(content, { id }, signal) {
     job = await fetch_json(`/v1/jobs/${id}`, { signal });
     await show();
   };
-  // The curves of the first run are not stored.
+  // Its curves are those that this tab has shown.
   if (job.progress.stage === "refined") history.first_run_ends();
   await show();
   // Results of a job that has ended may not have arrived either.

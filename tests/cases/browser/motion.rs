@@ -64,3 +64,42 @@ async fn a_run_that_is_refined_has_a_bar_for_each_part_and_its_reason() {
     is_sound(&browser).await;
     browser.close().await;
 }
+
+/// Shows the history of a job as that of a run that goes on.
+fn charts(id: &str, then: &str) -> String {
+    format!(
+        "Promise.all([import('/assets/job/history.js'), import('/assets/parts/address.js'), fetch('/v1/jobs/{id}').then((answer) => answer.json())]).then(async ([{{ HistoryCharts }}, {{ choices }}, job]) => {{ \
+         const charts = new HistoryCharts(job.id, choices, new AbortController().signal); \
+         document.querySelector('main').replaceChildren(...charts.nodes); \
+         const load = () => charts.load({{ ...job, status: 'running' }}, new AbortController().signal); \
+         {then} }})"
+    )
+}
+
+#[tokio::test]
+#[cfg_attr(
+    not(has_chromium),
+    ignore = "needs the programs chromium and chromedriver"
+)]
+async fn curves_of_the_first_run_stay_beside_those_of_a_finer_one_over_a_reload() {
+    let (_folder, server, browser) = service_and_browser().await;
+    let id = done(&server, &short("refined")).await;
+    let names = "document.querySelector('[data-chart=wear] .plot')?.data?.map(({ name }) => name).join('; ') ?? ''";
+    browser.open("/#/workers").await;
+    browser.shows("main", "busy").await;
+    let both = "await load(); charts.first_run_ends(); await load();";
+    browser.run(&charts(&id, both)).await;
+    browser
+        .wait_for(&format!("({names}).includes('deepest, first run')"))
+        .await;
+    browser.client.refresh().await.expect("it reloads");
+    browser.shows("main", "busy").await;
+    browser
+        .run(&charts(&id, "charts.first_run_ends(); await load();"))
+        .await;
+    browser
+        .wait_for(&format!("({names}).includes('deepest, first run')"))
+        .await;
+    is_sound(&browser).await;
+    browser.close().await;
+}
