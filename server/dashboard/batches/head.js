@@ -4,7 +4,7 @@ import { link } from "../parts/address.js";
 import { comparison_link } from "../parts/comparison.js";
 import { download_link } from "../parts/download.js";
 import { definitions, element } from "../parts/element.js";
-import { duration, seconds_between, time } from "../parts/format.js";
+import { count, duration, seconds_between, time } from "../parts/format.js";
 import { end_button } from "./actions.js";
 import { counts_line, counts_with_later, progress, progress_line, state_badge } from "./counts.js";
 import { KINDS, name_of } from "./kinds.js";
@@ -36,13 +36,17 @@ export class Head {
   /** @param {any} batch */
   update(batch) {
     const counts = counts_with_later(batch);
-    const shown = JSON.stringify(counts);
+    const { never_queued } = batch;
+    const shown = JSON.stringify([counts, never_queued]);
     if (shown === this.#shown) return;
     this.#shown = shown;
     const name = name_of(batch, this.#kind);
     this.#status.replaceChildren(
       element("p", { class: "line" }, state_badge(counts), progress(counts) < 1 && progress_line(counts, name), counts_line(counts)),
-      definitions([["submitted", `${time(batch.created_at)}, ${duration(Math.round(seconds_between(batch.created_at)))} ago`]]));
+      definitions([
+        ["submitted", `${time(batch.created_at)}, ${duration(Math.round(seconds_between(batch.created_at)))} ago`],
+        ["never queued", never_queued > 0 ? `${count(never_queued)} jobs: the sweep was cancelled before` : null],
+      ]));
     this.#actions.replaceChildren(...this.#links(batch),
       end_button(batch, this.#kind, { said: this.#said, cancelled: this.#reload, deleted: () => (location.hash = link("sweeps")) }), this.#said);
   }

@@ -118,6 +118,17 @@ async fn a_listed_sweep_is_followed_cancelled_cloned_and_deleted() {
     fits_a_phone(&browser, "sweeps").await;
     browser.click(&format!("{row} button")).await;
     browser.shows(&row, "all 3 cancelled").await;
+    browser.open(&format!("/#/sweep/{id}")).await;
+    browser.shows(".status", "all 3 cancelled").await;
+    // The head of the page of a sweep so large that most of its jobs were still to be queued.
+    let script = format!(
+        "Promise.all([import('/assets/batches/head.js'), fetch('/v1/sweeps/{id}').then((answer) => answer.json())]).then(([{{ Head }}, sweep]) => \
+         document.querySelector('main').replaceChildren(new Head({{ ...sweep, never_queued: 98214 }}, 'sweep', () => {{}}).node))"
+    );
+    browser.run(&script).await;
+    browser
+        .shows(".status", "98,214 jobs: the sweep was cancelled before")
+        .await;
 
     browser.open(&format!("/#/study?as=sweep&batch={id}")).await;
     browser.shows("button.primary", "Submit 3 jobs").await;
