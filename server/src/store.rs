@@ -36,7 +36,7 @@
 //! | `expire` | all queued jobs whose deadline has passed end with their `done` events | no |
 //! | `delete` | a job with all rows; files afterwards, or at the next start | no; only ended jobs |
 //! | `end_jobs_of` | jobs of such a batch as by `cancel` or `delete`, a limited number at once; the batch with the last of those | no |
-//! | `delete_older` | each job; a limited number a call | no; only ended jobs |
+//! | `delete_older` | each job; a limited number a call; batches without jobs | no; only ended jobs |
 //!
 //! Event numbers of a job count from 1 without gaps, in the order of the transactions; `done` is the last one. Reads
 //! see committed transactions only. A file counts once a manifest names it; [`Store::attempt_folder`] gives every lease

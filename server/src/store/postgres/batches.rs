@@ -191,7 +191,8 @@ async fn insert_batch(
     now: Now,
 ) -> Result<bool, StoreError> {
     let added = sqlx::query(
-        "INSERT INTO sweeps (id, name, base, created_at, request_key, body_sha256) VALUES ($1, $2, $3, $4, $5, $6) \
+        "INSERT INTO sweeps (id, name, base, created_at, request_key, body_sha256, submitted_ms) \
+         VALUES ($1, $2, $3, $4, $5, $6, (SELECT passed_ms FROM service_time)) \
          ON CONFLICT (request_key) DO NOTHING",
     )
     .bind(id)

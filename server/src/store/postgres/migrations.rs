@@ -5,7 +5,7 @@ use sqlx::migrate::Migrator;
 use crate::store::migrations::{self, file, migrator_of};
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 12] = [
+const FILES: [(&str, &str); 13] = [
     file!("postgres/0064_schema.sql"),
     file!("postgres/0065_expansions.sql"),
     file!("postgres/0066_workers.sql"),
@@ -18,6 +18,7 @@ const FILES: [(&str, &str); 12] = [
     file!("postgres/0074_list_indexes.sql"),
     file!("postgres/0075_batch_endings.sql"),
     file!("postgres/0080_sent_specifications.sql"),
+    file!("postgres/0081_retained_batches.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.

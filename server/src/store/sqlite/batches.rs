@@ -186,7 +186,8 @@ async fn insert_batch(
 ) -> Result<Uuid, StoreError> {
     let id = Uuid::now_v7();
     sqlx::query(
-        "INSERT INTO sweeps (id, name, base, created_at, request_key, body_sha256) VALUES (?, ?, ?, ?, ?, ?)",
+        "INSERT INTO sweeps (id, name, base, created_at, request_key, body_sha256, submitted_ms) \
+         VALUES (?, ?, ?, ?, ?, ?, (SELECT passed_ms FROM service_time))",
     )
     .bind(id.to_string())
     .bind(&batch.name)

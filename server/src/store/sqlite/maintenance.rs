@@ -64,14 +64,14 @@ impl SqliteStore {
         for id in &old {
             self.delete((*id).into()).await?;
         }
-        if !old.is_empty() {
-            sqlx::query(
-                "DELETE FROM sweeps WHERE NOT EXISTS (SELECT 1 FROM sweep_jobs WHERE sweep_id = sweeps.id) \
-                 AND NOT EXISTS (SELECT 1 FROM expansions WHERE sweep_id = sweeps.id AND NOT is_over)",
-            )
-            .execute(&self.writer)
-            .await?;
-        }
+        sqlx::query(
+            "DELETE FROM sweeps WHERE submitted_ms < (SELECT passed_ms FROM service_time) - ? \
+             AND NOT EXISTS (SELECT 1 FROM sweep_jobs WHERE sweep_id = sweeps.id) \
+             AND NOT EXISTS (SELECT 1 FROM expansions WHERE sweep_id = sweeps.id AND NOT is_over)",
+        )
+        .bind(integer(age.as_millis()))
+        .execute(&self.writer)
+        .await?;
         Ok(old.len())
     }
 }

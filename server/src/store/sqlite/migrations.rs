@@ -5,7 +5,7 @@ use sqlx::migrate::Migrator;
 use crate::store::migrations::{self, file, migrator_of};
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 36] = [
+const FILES: [(&str, &str); 37] = [
     file!("sqlite/0001_jobs.sql"),
     file!("sqlite/0002_labels.sql"),
     file!("sqlite/0003_events.sql"),
@@ -42,6 +42,7 @@ const FILES: [(&str, &str); 36] = [
     file!("sqlite/0074_list_indexes.sql"),
     file!("sqlite/0075_batch_endings.sql"),
     file!("sqlite/0080_sent_specifications.sql"),
+    file!("sqlite/0081_retained_batches.sql"),
 ];
 
 /// Applies the migrations that a database does not have; refuses a database with others.

@@ -5,6 +5,7 @@ use super::*;
 on_both_engines! { Fixture:
     a_clock_that_is_wrong_deletes_nothing,
     a_job_that_is_queued_again_is_retained_from_its_next_end,
+    a_batch_without_jobs_is_retained_as_long_as_a_job,
 }
 
 const DAY: Duration = Duration::from_hours(24);
@@ -64,4 +65,20 @@ async fn a_job_that_is_queued_again_is_retained_from_its_next_end(fixture: Fixtu
     assert_eq!(fixture.deleted(DAY).await, 0);
     fixture.counts(DAY_MS + 1, 2 * DAY_MS + 2).await;
     assert_eq!(fixture.deleted(DAY).await, 1);
+}
+
+async fn a_batch_without_jobs_is_retained_as_long_as_a_job(fixture: Fixture) {
+    fixture.ended_job().await;
+    fixture.counts(0, DAY_MS / 2).await;
+    let batch = fixture.batch(Vec::new(), None).await;
+    let is_there = async || {
+        let found = fixture.store.has_batch(batch, false).await;
+        found.expect("the store")
+    };
+    fixture.counts(DAY_MS / 2, DAY_MS + 1).await;
+    assert_eq!(fixture.deleted(DAY).await, 1, "the job");
+    assert!(is_there().await);
+    fixture.counts(DAY_MS + 1, 3 * DAY_MS / 2 + 1).await;
+    assert_eq!(fixture.deleted(DAY).await, 0, "no job");
+    assert!(!is_there().await);
 }
