@@ -12,7 +12,7 @@ fn main() {
     println!("cargo::rerun-if-env-changed=FRETWEAR_PYTHON");
     println!("cargo::rerun-if-env-changed=PATH");
     println!(
-        "cargo::rustc-check-cfg=cfg(has_vtk, has_axe, has_cc, has_ccx, has_chromium, has_curl, has_fma, has_haproxy, has_moto, has_mount, has_network, has_promtool, has_schemathesis, has_slurm)"
+        "cargo::rustc-check-cfg=cfg(has_vtk, has_axe, has_cc, has_ccx, has_chromium, has_curl, has_fma, has_haproxy, has_memory_groups, has_moto, has_mount, has_network, has_promtool, has_schemathesis, has_slurm)"
     );
     let python = std::env::var("FRETWEAR_PYTHON").unwrap_or_else(|_| "python3".to_owned());
     println!("cargo::rustc-env=FRETWEAR_PYTHON={python}");
@@ -54,6 +54,9 @@ fn main() {
     if runs(Command::new("haproxy").arg("-v")) {
         println!("cargo::rustc-cfg=has_haproxy");
     }
+    if can_limit_memory() {
+        println!("cargo::rustc-cfg=has_memory_groups");
+    }
     if can_make_networks() {
         println!("cargo::rustc-cfg=has_network");
     }
@@ -92,6 +95,23 @@ fn can_mount() -> bool {
                 .arg(&folder),
         );
     mounted && runs(Command::new("umount").arg(&folder))
+}
+
+/// Checks whether control groups with a memory limit can be made, as root can.
+fn can_limit_memory() -> bool {
+    let groups = ["memory/memory.limit_in_bytes", "memory.max"];
+    groups.iter().any(|limit| {
+        let limit = Path::new("/sys/fs/cgroup").join(limit);
+        let group = limit.with_file_name(format!("fretwear-probe-{}", std::process::id()));
+        let limited = std::fs::create_dir(&group).is_ok()
+            && std::fs::write(
+                group.join(limit.file_name().unwrap_or_default()),
+                "1000000000",
+            )
+            .is_ok();
+        let _ = std::fs::remove_dir(&group);
+        limited
+    })
 }
 
 /// Checks whether network namespaces with interfaces can be made, as root can.

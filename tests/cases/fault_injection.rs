@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use nix::sys::signal::{Signal, kill};
 use serde_json::{Value, json};
-use tests::{Disk, Server, bare_preset, bits, database, merged};
+use tests::{Disk, MemoryGroup, Server, bare_preset, bits, database, merged};
 
 /// Checkpoints after every computed cycle.
 const EVERY_CYCLE: [&str; 2] = ["--checkpoint-every-s", "0"];
@@ -111,17 +111,19 @@ async fn a_store_that_stalls_across_the_end_of_a_job_uses_no_attempt() {
     assert_eq!(done.len(), 1);
 }
 
+/// A job of elements so small, mm, that it needs much memory: 92 MB at 50 nm, 192 MB at 30 nm.
+fn large(contact_element_mm: f64) -> Value {
+    let fine = json!({
+        "accuracy": {"preset": "fine", "overrides": {"contact_element_mm": contact_element_mm}}
+    });
+    merged(bare_preset("fuzz_button"), fine)
+}
+
 #[tokio::test]
 async fn a_job_beyond_its_memory_limit_ends_alone_with_the_reason() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start_with(folder.path(), &["--job-memory-mb", "64"]);
-    let large = merged(
-        bare_preset("fuzz_button"),
-        json!({
-            "accuracy": {"preset": "fine", "overrides": {"contact_element_mm": 0.00005}}
-        }),
-    );
-    let id = submitted(&server, &large).await;
+    let id = submitted(&server, &large(5e-5)).await;
     let job = ended(&server, &id).await;
     assert_eq!(
         (&job["status"], &job["outcome"], &job["attempts"]),
@@ -130,6 +132,34 @@ async fn a_job_beyond_its_memory_limit_ends_alone_with_the_reason() {
     );
     let reason = job["status_reason"].as_str().expect("a reason");
     assert!(reason.contains("memory allocation of"), "{reason}");
+    let small = json!({"system": {"kind": "cylinder_on_flat"}, "cycles": 1, "accuracy": {"preset": "draft"}});
+    let id = submitted(&server, &small).await;
+    assert_eq!(ended(&server, &id).await["status"], "succeeded");
+}
+
+/// More memory than the service has, and less than the large job needs, bytes.
+const GROUP_BYTES: u64 = 120_000_000;
+
+#[tokio::test]
+#[cfg_attr(
+    not(has_memory_groups),
+    ignore = "needs control groups with a memory limit, and to be root"
+)]
+async fn a_solve_that_the_kernel_kills_because_memory_runs_out_is_not_tried_again() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let group = MemoryGroup::with_limit(GROUP_BYTES);
+    let server = Server::start(folder.path());
+    // The service has seen the memory of the machine.
+    group.add(server.id());
+    let id = submitted(&server, &large(3e-5)).await;
+    let job = ended(&server, &id).await;
+    assert_eq!(
+        (&job["status"], &job["outcome"], &job["attempts"]),
+        (&json!("failed"), &json!("out_of_memory"), &json!(1)),
+        "{job}"
+    );
+    let reason = job["status_reason"].as_str().expect("a reason");
+    assert!(reason.contains("killed by the kernel"), "{reason}");
     let small = json!({"system": {"kind": "cylinder_on_flat"}, "cycles": 1, "accuracy": {"preset": "draft"}});
     let id = submitted(&server, &small).await;
     assert_eq!(ended(&server, &id).await["status"], "succeeded");

@@ -8,6 +8,7 @@ mod certificates;
 pub mod database;
 pub mod disk;
 mod haproxy;
+mod memory_group;
 mod network;
 mod postgres;
 mod postgres_dump;
@@ -27,6 +28,7 @@ pub use browser::Browser;
 pub use certificates::Certificates;
 pub use disk::Disk;
 pub use haproxy::Haproxy;
+pub use memory_group::MemoryGroup;
 pub use network::Network;
 pub use postgres::PostgresServer;
 pub use program::{
