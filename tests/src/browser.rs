@@ -258,11 +258,14 @@ impl Browser {
         other.map(str::to_owned).collect()
     }
 
-    /// Saves a picture of the page for people to look at, in `target/screenshots`.
+    /// Saves a picture of the page for people to look at, in `target/screenshots`, if `FRETWEAR_TEST_PICTURES` is set.
     ///
     /// # Panics
     /// If it cannot be taken or written.
     pub async fn picture(&self, name: &str) {
+        if std::env::var_os("FRETWEAR_TEST_PICTURES").is_none() {
+            return;
+        }
         let bytes = self.client.screenshot().await.expect("a picture");
         Self::keep(&format!("{name}.png"), &bytes);
     }
