@@ -37,7 +37,6 @@ pub(in crate::store) mod verify;
 mod worker_tokens;
 mod workers;
 
-use std::fs::File;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -46,6 +45,7 @@ use sqlx::sqlite::SqlitePool;
 use uuid::Uuid;
 
 use crate::store::local::Local;
+use crate::store::sqlite::open::DatabaseLock;
 use crate::store::sqlite::submissions::{Submission, Submissions, write};
 use crate::store::{NewJob, RequestKey, StoreError, Submitted};
 pub use owner::OWNER_HEARTBEAT;
@@ -66,7 +66,7 @@ pub(in crate::store) struct SqliteStore {
     /// When the database was last written by [`SqliteStore::ready`].
     last_probe: tokio::sync::Mutex<Option<Instant>>,
     /// Held as long as the store is open.
-    _lock: File,
+    _lock: DatabaseLock,
 }
 
 impl SqliteStore {

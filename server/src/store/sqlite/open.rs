@@ -144,8 +144,23 @@ pub(super) fn options(url: &str) -> Result<SqliteConnectOptions, StoreError> {
         })
 }
 
-/// Locks the file beside the database; the operating system releases it when the process ends, however it ends.
-pub(super) fn lock(database: &Path) -> Result<File, StoreError> {
+/// The lock of a database. The operating system releases it when the process ends, however it ends.
+///
+/// Closing the file would not release it while another process has the file, too: one that this process has begun to start shares its files
+/// until it executes its program.
+#[derive(Debug)]
+pub(super) struct DatabaseLock(File);
+
+impl Drop for DatabaseLock {
+    fn drop(&mut self) {
+        if let Err(error) = self.0.unlock() {
+            tracing::warn!(%error, "the lock of the database was not released");
+        }
+    }
+}
+
+/// Locks the file beside the database.
+pub(super) fn lock(database: &Path) -> Result<DatabaseLock, StoreError> {
     let prepare = |cause| StoreError::Prepare {
         path: database.to_owned(),
         cause,
@@ -164,7 +179,7 @@ pub(super) fn lock(database: &Path) -> Result<File, StoreError> {
         .open(&path)
         .map_err(prepare)?;
     match file.try_lock() {
-        Ok(()) => Ok(file),
+        Ok(()) => Ok(DatabaseLock(file)),
         Err(TryLockError::WouldBlock) => Err(StoreError::Locked { path }),
         Err(TryLockError::Error(cause)) => Err(prepare(cause)),
     }
@@ -196,6 +211,18 @@ fn check_version(found: &str) -> Result<(), StoreError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_lock_is_released_although_a_process_that_is_being_started_has_its_file() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let database = folder.path().join("test.db");
+        let held = lock(&database).expect("a lock");
+        let inherited = held.0.try_clone().expect("a file");
+        assert!(lock(&database).is_err());
+        drop(held);
+        assert!(lock(&database).is_ok());
+        drop(inherited);
+    }
 
     #[test]
     fn old_versions_are_rejected() {
