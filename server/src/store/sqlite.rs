@@ -18,6 +18,7 @@ mod job_list;
 mod job_rows;
 mod jobs;
 mod leases;
+mod lock;
 mod maintenance;
 mod migrations;
 mod moved_meanwhile;
@@ -45,7 +46,7 @@ use sqlx::sqlite::SqlitePool;
 use uuid::Uuid;
 
 use crate::store::local::Local;
-use crate::store::sqlite::open::DatabaseLock;
+use crate::store::sqlite::lock::DatabaseLock;
 use crate::store::sqlite::submissions::{Submission, Submissions, write};
 use crate::store::{NewJob, RequestKey, StoreError, Submitted};
 pub use owner::OWNER_HEARTBEAT;

@@ -15,8 +15,9 @@ use crate::export::files::{create_folder, parent};
 use crate::store::folder::{Folder, beside};
 use crate::store::leases::ENDED_BY_RESTORE;
 use crate::store::sqlite::identity::schema_version;
+use crate::store::sqlite::lock::lock;
 use crate::store::sqlite::moved_meanwhile::take_moved;
-use crate::store::sqlite::open::{lock, options};
+use crate::store::sqlite::open::options;
 use crate::store::{BackupError, CopySummary, Lease};
 
 use database::has_marks;
