@@ -12,7 +12,7 @@ use solver::record::{DepthProfile, SideReport, Summary};
 use solver::scene::{Accuracy, BlockShape, Friction, Motion, Scene, SliderShape, WearLaw};
 use solver::sides::{Side, Sides};
 
-const TOLERANCE: f64 = 0.05;
+const TOLERANCE: f64 = 0.02;
 
 /// Amplitudes of a stroke much shorter than the scar is wide, and of a groove, mm, with cycles for each.
 const SHORT: (f64, u64) = (0.004, 4_000);

@@ -55,7 +55,7 @@ impl Reached {
     }
 
     async fn submitted(&self) -> String {
-        let (status, job) = self.server.submit(fuzz_button_with_jump(8)).await;
+        let (status, job) = self.server.submit(fuzz_button_with_jump(4)).await;
         assert_eq!(status, 202, "{job}");
         job["id"].as_str().expect("an id").to_owned()
     }

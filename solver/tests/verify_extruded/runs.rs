@@ -38,14 +38,14 @@ fn a_resumed_run_of_extruded_bodies_reaches_the_bits_of_the_undisturbed_one() {
     (scene.slider.plating, scene.receptacle.plating) = (plating.clone(), plating);
     scene.spring_n_per_mm2 = 400.0;
     scene.life = vec![Criterion::deepest(Side::Slider, 4e-6)];
-    let (summary, _) = resumes_to_the_same_bits("extruded", &scene, 1);
+    let (summary, _) = resumes_to_the_same_bits("extruded", &scene, 2);
     assert!(summary.life.criteria[0].cycles.is_some());
     assert!(summary.checks.worn_area < 1e-10, "{:?}", summary.checks);
     assert!(summary.checks.force_balance < 1e-9, "{:?}", summary.checks);
     let mut worn = extruded(2, Ends::Free, 150);
     worn.receptacle.shape.height_mm = 0.006;
     worn.effects = worn.effects.with(Effect::Relocation, true);
-    let (summary, _) = resumes_to_the_same_bits("extruded, relocated", &worn, 1);
+    let (summary, _) = resumes_to_the_same_bits("extruded, relocated", &worn, 2);
     assert!(summary.resolution.relocations > 0);
 }
 
