@@ -1,5 +1,12 @@
 //! Detects the optional programs that some cases need; cases whose program is absent are ignored, visibly.
 
+#[expect(
+    dead_code,
+    unreachable_pub,
+    reason = "the library moves processes into the group, and exports it"
+)]
+#[path = "src/memory_group.rs"]
+mod memory_group;
 #[path = "../server/build/postgresql.rs"]
 mod postgresql;
 
@@ -9,6 +16,7 @@ use std::process::Command;
 fn main() {
     postgresql::find();
     println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=src/memory_group.rs");
     println!("cargo::rerun-if-env-changed=FRETWEAR_PYTHON");
     println!("cargo::rerun-if-env-changed=PATH");
     println!(
@@ -54,7 +62,7 @@ fn main() {
     if runs(Command::new("haproxy").arg("-v")) {
         println!("cargo::rustc-cfg=has_haproxy");
     }
-    if can_limit_memory() {
+    if memory_group::MemoryGroup::with_limit(1_000_000_000).is_some() {
         println!("cargo::rustc-cfg=has_memory_groups");
     }
     if can_make_networks() {
@@ -95,23 +103,6 @@ fn can_mount() -> bool {
                 .arg(&folder),
         );
     mounted && runs(Command::new("umount").arg(&folder))
-}
-
-/// Checks whether control groups with a memory limit can be made, as root can.
-fn can_limit_memory() -> bool {
-    let groups = ["memory/memory.limit_in_bytes", "memory.max"];
-    groups.iter().any(|limit| {
-        let limit = Path::new("/sys/fs/cgroup").join(limit);
-        let group = limit.with_file_name(format!("fretwear-probe-{}", std::process::id()));
-        let limited = std::fs::create_dir(&group).is_ok()
-            && std::fs::write(
-                group.join(limit.file_name().unwrap_or_default()),
-                "1000000000",
-            )
-            .is_ok();
-        let _ = std::fs::remove_dir(&group);
-        limited
-    })
 }
 
 /// Checks whether network namespaces with interfaces can be made, as root can.

@@ -119,22 +119,27 @@ fn large(contact_element_mm: f64) -> Value {
     merged(bare_preset("fuzz_button"), fine)
 }
 
-#[tokio::test]
-async fn a_job_beyond_its_memory_limit_ends_alone_with_the_reason() {
-    let folder = tempfile::tempdir().expect("a folder can be made");
-    let server = Server::start_with(folder.path(), &["--job-memory-mb", "64"]);
-    let id = submitted(&server, &large(5e-5)).await;
-    let job = ended(&server, &id).await;
+/// Checks that a job fails in its first attempt, with words in its reason, and that the next job is solved.
+async fn out_of_memory_alone(server: &Server, large: &Value, words: &str) {
+    let id = submitted(server, large).await;
+    let job = ended(server, &id).await;
     assert_eq!(
         (&job["status"], &job["outcome"], &job["attempts"]),
         (&json!("failed"), &json!("out_of_memory"), &json!(1)),
         "{job}"
     );
     let reason = job["status_reason"].as_str().expect("a reason");
-    assert!(reason.contains("memory allocation of"), "{reason}");
+    assert!(reason.contains(words), "{reason}");
     let small = json!({"system": {"kind": "cylinder_on_flat"}, "cycles": 1, "accuracy": {"preset": "draft"}});
-    let id = submitted(&server, &small).await;
-    assert_eq!(ended(&server, &id).await["status"], "succeeded");
+    let id = submitted(server, &small).await;
+    assert_eq!(ended(server, &id).await["status"], "succeeded");
+}
+
+#[tokio::test]
+async fn a_job_beyond_its_memory_limit_ends_alone_with_the_reason() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start_with(folder.path(), &["--job-memory-mb", "64"]);
+    out_of_memory_alone(&server, &large(5e-5), "memory allocation of").await;
 }
 
 /// More memory than the service has, and less than the large job needs, bytes.
@@ -147,22 +152,12 @@ const GROUP_BYTES: u64 = 120_000_000;
 )]
 async fn a_solve_that_the_kernel_kills_because_memory_runs_out_is_not_tried_again() {
     let folder = tempfile::tempdir().expect("a folder can be made");
-    let group = MemoryGroup::with_limit(GROUP_BYTES);
+    let group = MemoryGroup::with_limit(GROUP_BYTES).expect("a group");
     let server = Server::start(folder.path());
     // The service has seen the memory of the machine.
-    group.add(server.id());
-    let id = submitted(&server, &large(3e-5)).await;
-    let job = ended(&server, &id).await;
-    assert_eq!(
-        (&job["status"], &job["outcome"], &job["attempts"]),
-        (&json!("failed"), &json!("out_of_memory"), &json!(1)),
-        "{job}"
-    );
-    let reason = job["status_reason"].as_str().expect("a reason");
-    assert!(reason.contains("killed by the kernel"), "{reason}");
-    let small = json!({"system": {"kind": "cylinder_on_flat"}, "cycles": 1, "accuracy": {"preset": "draft"}});
-    let id = submitted(&server, &small).await;
-    assert_eq!(ended(&server, &id).await["status"], "succeeded");
+    let process = server.id().as_raw().unsigned_abs();
+    group.add(process).expect("a process can be moved");
+    out_of_memory_alone(&server, &large(3e-5), "killed by the kernel").await;
 }
 
 #[tokio::test]

@@ -61,7 +61,7 @@ export async function job_page(content, { id }, signal) {
     job = await fetch_json(`/v1/jobs/${id}`, { signal });
     await show();
   };
-  // Its curves are those that this tab has shown.
+  // The curves of the first run are those that this tab has shown.
   if (job.progress.stage === "refined") history.first_run_ends();
   await show();
   // Results of a job that has ended may not have arrived either.

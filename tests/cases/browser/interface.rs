@@ -8,7 +8,7 @@ use super::{batch, done, is_sound, service_and_browser, short, with_fields};
 
 /// Delay of the answers to a page that is left.
 const LATENCY_MS: u32 = 200;
-/// Times after which a page is left: before, between and beside its requests.
+/// Times after which a page is left: during its first request, during the next ones, and after most of them.
 const LEFT_AFTER_MS: [u64; 3] = [50, 300, 700];
 
 #[tokio::test]
