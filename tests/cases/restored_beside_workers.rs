@@ -59,9 +59,10 @@ async fn restored_beside_its_worker<C>(
     // The copy takes a while, in which the job must not end.
     worker.signal(Signal::SIGSTOP);
     let copied = copy();
+    let in_copy = has_computed(&server, &id, 200).await;
     worker.signal(Signal::SIGCONT);
     // Of two writes after the copy the worker knows that the first one has arrived, and does not send it again.
-    let first = has_computed(&server, &id, 600).await;
+    let first = has_computed(&server, &id, in_copy).await;
     has_computed(&server, &id, first).await;
     let address = server.base.trim_start_matches("http://").to_owned();
     server.signal(Signal::SIGKILL);
