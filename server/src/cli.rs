@@ -3,7 +3,6 @@
 mod access;
 mod arguments;
 mod backup;
-mod bench;
 mod calibrate;
 mod child;
 mod client;
@@ -32,8 +31,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use arguments::{
-    BenchArguments, CalibrateArguments, DATABASE, LogFormat, ServeArguments, SolveArguments,
-    WorkArguments,
+    CalibrateArguments, DATABASE, LogFormat, ServeArguments, SolveArguments, WorkArguments,
 };
 use clap::{CommandFactory, Parser, Subcommand};
 use listen::ListenAddress;
@@ -98,8 +96,6 @@ enum Command {
         #[arg(long, default_value_t = 0)]
         cycle: u64,
     },
-    /// Measure the engine on this machine.
-    Bench(BenchArguments),
     /// Start a service in a new folder, solve the fuzz-button job with it and show its wear.
     Demo {
         /// Exit when the job has ended instead of continuing to serve.
@@ -212,7 +208,6 @@ fn run(command: Command) -> terminal::Ended {
             format: DeckFormat::Inp,
             cycle,
         } => export::run(&spec, cycle),
-        Command::Bench(arguments) => bench::run(&arguments),
         Command::Demo { exit, listen } => demo::run(listen.address, exit),
         Command::Probe {
             listen,

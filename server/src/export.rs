@@ -11,7 +11,7 @@ pub mod life;
 pub mod line;
 pub mod line_maps;
 pub mod maps;
-pub(crate) mod markdown;
+pub mod markdown;
 pub(crate) mod mission;
 pub mod parquet;
 pub mod pictures;

@@ -2,7 +2,6 @@
 
 mod backoff;
 pub mod batch;
-pub mod bench;
 pub mod cli;
 pub mod client;
 pub mod clock;

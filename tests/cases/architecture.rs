@@ -21,7 +21,7 @@ const CRATE_DEPENDENCIES: [(&str, &[&str]); 4] = [
     ("api", &[]),
     ("server", &["api", "solver"]),
     ("solver", &[]),
-    ("tests", &["server", "solver"]),
+    ("tests", &["api", "server", "solver"]),
 ];
 
 /// Crates that the engine must not depend on: async, JSON, SQL, clocks, logs. (`serde` itself writes nothing: it only

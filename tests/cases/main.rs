@@ -12,7 +12,7 @@ mod api_fuzz;
 mod architecture;
 mod auto_against_all_on;
 mod backup;
-mod bench_against_calculix;
+mod bench;
 mod browser;
 mod calculix_agrees;
 mod cancel_running_job;

@@ -1,14 +1,15 @@
 //! Requirement: a plan estimates the unknowns, memory, computed cycles and increments of a solve within a factor of two,
 //! on all systems and both published scenes, at every tolerance.
 //!
-//! Workload is counted here; time depends on other load of the machine; `fretwear bench --predictions` compares it. The
-//! looser tolerances run with every test; `FRETWEAR_PREDICTIONS=long` runs all.
+//! Workload is counted here; time depends on other load of the machine; `bench::night` compares it. The
+//! looser tolerances run with every test; `long` has the others.
 
 use fastrand::Rng;
 use serde_json::{Value, json};
-use server::bench::BenchError;
-use server::bench::predictions::{Pair, TOLERANCES, compare, compare_specification, scenes};
 use server::estimate::machine;
+
+use crate::bench::BenchError;
+use crate::bench::predictions::{Pair, TOLERANCES, compare, compare_specification, scenes};
 
 /// A random plated life: a system, a stroke of some um, gold over nickel, until the gold or the nickel is worn through.
 fn random_life(random: &mut Rng, accuracy: &Value) -> String {
@@ -86,13 +87,11 @@ fn widens(scene: &str, tolerance: f64, what: &str) -> bool {
 
 #[test]
 fn counted_work_is_within_a_factor_of_two_of_the_plan() {
-    let all = std::env::var("FRETWEAR_PREDICTIONS").is_ok_and(|length| length == "long");
+    counted_work_is_near(&TOLERANCES[..2]);
+}
+
+fn counted_work_is_near(tolerances: &[f64]) {
     let machine = machine::measure().expect("the machine can be measured");
-    let tolerances = if all {
-        &TOLERANCES[..]
-    } else {
-        &TOLERANCES[..2]
-    };
     for tolerance in tolerances {
         for scene in scenes().expect("scenes are sound") {
             let prediction = compare(&tests::binary(), &machine, &scene, *tolerance);
@@ -115,6 +114,16 @@ fn counted_work_is_within_a_factor_of_two_of_the_plan() {
                 );
             }
         }
+    }
+}
+
+mod long {
+    use super::*;
+
+    #[test]
+    #[ignore = "long: 40 s"]
+    fn counted_work_at_tight_tolerances_is_within_a_factor_of_two_of_the_plan() {
+        counted_work_is_near(&TOLERANCES[2..]);
     }
 }
 

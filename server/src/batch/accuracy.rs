@@ -11,7 +11,7 @@ mod evaluation;
 mod evaluation_plan;
 mod grid;
 pub(in crate::batch) mod outcomes;
-pub(crate) mod process;
+pub mod process;
 mod reference;
 pub mod report;
 pub(in crate::batch) mod request;

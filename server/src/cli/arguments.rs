@@ -5,7 +5,6 @@ use std::process::ExitCode;
 
 use api::spec::{Criterion, EnumValue, Part};
 
-use crate::bench::{against, predictions};
 use crate::cli::access::{AccessOptions, TlsOptions, token_in};
 use crate::cli::listen::ListenAddress;
 use crate::cli::options::{SolveOptions, WorkOptions};
@@ -101,29 +100,6 @@ pub(super) enum LogFormat {
     Text,
     /// One JSON object per line.
     Json,
-}
-
-/// Codes to compare with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub(super) enum OtherCode {
-    /// CalculiX.
-    Ccx,
-}
-
-#[derive(Debug, clap::Args)]
-pub(super) struct BenchArguments {
-    /// Compare the estimates of plans with measurements instead, on all systems and both published scenes.
-    #[arg(long)]
-    pub(super) predictions: bool,
-    /// Compare with another code on the same problem instead: a friction cycle on the same meshes.
-    #[arg(long, value_enum, conflicts_with = "predictions")]
-    pub(super) against: Option<OtherCode>,
-    /// Sizes of the contact elements, um.
-    #[arg(long, value_delimiter = ',', requires = "against", default_values_t = against::ELEMENTS_UM)]
-    pub(super) elements_um: Vec<f64>,
-    /// Tolerances of the compared solves.
-    #[arg(long, value_delimiter = ',', requires = "predictions", default_values_t = predictions::TOLERANCES)]
-    pub(super) tolerances: Vec<f64>,
 }
 
 #[derive(Debug, clap::Args)]

@@ -1,7 +1,7 @@
 //! Estimated size of a solve: unknowns, memory and output.
 //!
 //! The memory coefficients were fitted to measured runs of all systems at tolerances of 10, 5, 2, 1 and 0.3 % (5 000 to
-//! 135 000 unknowns, 70 to 1 540 surface nodes; `fretwear bench --predictions` prints them), which they match within a
+//! 135 000 unknowns, 70 to 1 540 surface nodes; `tests/cases/bench/night.rs` prints them), which they match within a
 //! fifth: a sparse factor grows almost linearly with the unknowns, and the body with the larger surface is condensed
 //! with several matrices of its surface at once. The output coefficients are rough: `fretwear plan`
 //! estimates 0.91 MB for `fuzz_button.json` and 0.31 MB for `mccoll.json`, `fretwear solve` writes 1.44 and 0.66 MB.

@@ -3,7 +3,7 @@
 use comfy_table::{CellAlignment, Row, Table};
 
 /// Returns a table without rows; the columns after the first `left` ones are right-aligned.
-pub(crate) fn table(header: impl Into<Row>, left: usize) -> Table {
+pub fn table(header: impl Into<Row>, left: usize) -> Table {
     let mut table = Table::new();
     table.load_style(comfy_table::presets::ASCII_MARKDOWN);
     table.set_header(header);

@@ -80,12 +80,6 @@ pub(crate) struct FollowsProduct {
 }
 
 impl FollowsProduct {
-    /// With a constant friction, without films that grow.
-    pub(crate) const ALL: Self = Self {
-        depths: true,
-        resistance: true,
-    };
-
     /// What does in a contact.
     pub(crate) fn of(interface: &Interface) -> Self {
         let changes =

@@ -258,7 +258,6 @@ const RULES: [(&str, Rule); 21] = [
             "solver::record",
             &[
                 "server/src/batch",
-                "server/src/bench",
                 "server/src/cli",
                 "server/src/estimate",
                 "server/src/export",

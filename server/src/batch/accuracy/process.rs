@@ -15,10 +15,10 @@ const NO_CHECKPOINTS: Duration = Duration::from_secs(1_000_000);
 
 /// Solves a specification with the program's `solve-child`; blocks until the process has exited. Returns its solution,
 /// or why there is none, and its processor seconds.
-pub(crate) fn solve(
-    program: &Path,
-    spec: &Spec,
-) -> Result<(Result<Found, String>, f64), StudyError> {
+///
+/// # Errors
+/// [`StudyError`] if the process cannot be started or its output cannot be read.
+pub fn solve(program: &Path, spec: &Spec) -> Result<(Result<Found, String>, f64), StudyError> {
     let spec = serde_json::to_string(spec)?;
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()

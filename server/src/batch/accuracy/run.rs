@@ -19,7 +19,8 @@ pub struct Run {
 /// Result of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found {
-    pub(crate) summary: Summary,
+    /// Summary of the run.
+    pub summary: Summary,
     pub(super) solution: Solution,
 }
 

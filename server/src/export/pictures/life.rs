@@ -205,6 +205,11 @@ mod tests {
     use solver::record::{CycleReport, ResistanceReport, SideReport};
     use solver::sides::Sides;
 
+    const ALL: FollowsProduct = FollowsProduct {
+        depths: true,
+        resistance: true,
+    };
+
     use super::*;
 
     use crate::export::pictures::svg;
@@ -242,8 +247,7 @@ mod tests {
     #[test]
     fn a_life_has_its_exposed_part_and_its_resistance_with_band_and_limits() {
         let given = settings(LIMITS);
-        let picture =
-            picture("a tip", (&given, false), FollowsProduct::ALL, &history()).expect("a picture");
+        let picture = picture("a tip", (&given, false), ALL, &history()).expect("a picture");
         let [exposed, resistance] = &picture.panels[..] else {
             panic!("two panels");
         };
@@ -280,7 +284,7 @@ mod tests {
         let given = settings(LIMITS);
         let grows = FollowsProduct {
             resistance: false,
-            ..FollowsProduct::ALL
+            ..ALL
         };
         let grows = picture("", (&given, false), grows, &history()).expect("a picture");
         assert_eq!(
@@ -291,8 +295,7 @@ mod tests {
             coefficient_of_variation: Some(0.0),
             ..given
         };
-        let drawn =
-            picture("", (&certain, false), FollowsProduct::ALL, &history()).expect("a picture");
+        let drawn = picture("", (&certain, false), ALL, &history()).expect("a picture");
         assert_eq!(drawn.panels[0].series.len(), 2);
     }
 
@@ -304,19 +307,11 @@ mod tests {
             ..CycleReport::default()
         });
         let record = Record::new(&reports, &[]);
-        assert_eq!(
-            picture("", (&settings(""), false), FollowsProduct::ALL, &record),
-            None
-        );
-        let limited = picture("", (&settings(LIMITS), true), FollowsProduct::ALL, &record);
+        assert_eq!(picture("", (&settings(""), false), ALL, &record), None);
+        let limited = picture("", (&settings(LIMITS), true), ALL, &record);
         assert_eq!(limited.map(|drawn| drawn.panels.len()), Some(1));
         assert_eq!(
-            picture(
-                "",
-                (&settings(LIMITS), false),
-                FollowsProduct::ALL,
-                &Record::default()
-            ),
+            picture("", (&settings(LIMITS), false), ALL, &Record::default()),
             None
         );
     }

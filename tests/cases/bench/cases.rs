@@ -2,21 +2,19 @@
 
 use std::ops::ControlFlow;
 
-use api::spec::LifeSettings;
+use server::solve;
+use server::spec;
+use server::spec::Resolved;
 use solver::SolveError;
 use solver::condensation::{self, Condensed};
 use solver::cycle::{CycleState, Integrator};
 use solver::model::{self, Model};
 use solver::scene::{Friction, Motion, Scene, WearLaw};
 
-use crate::bench::{BenchError, Row, measured};
-use crate::number::real;
-use crate::solve;
-use crate::spec;
-use crate::spec::scatter::FollowsProduct;
+use crate::bench::{BenchError, Row, measured, real};
 
-pub(super) const MCCOLL: &str = include_str!("../../examples/mccoll.json");
-pub(super) const FUZZ_BUTTON: &str = include_str!("../../examples/fuzz_button.json");
+pub(super) const MCCOLL: &str = include_str!("../../../server/examples/mccoll.json");
+pub(super) const FUZZ_BUTTON: &str = include_str!("../../../server/examples/fuzz_button.json");
 
 /// Target numbers of unknowns of both bodies for the condensation.
 const CONDENSED: [f64; 3] = [5e3, 20e3, 50e3];
@@ -33,10 +31,10 @@ const ELEMENTS: [f64; 3] = [0.02, 0.01, 0.005];
 const CYCLES: [u64; 3] = [2_000, 6_000, 18_000];
 
 /// A case: its name and its measurement.
-pub type Case = (&'static str, fn() -> Result<Vec<Row>, BenchError>);
+pub(super) type Case = (&'static str, fn() -> Result<Vec<Row>, BenchError>);
 
 /// All cases, in the order of the table.
-pub fn all() -> Vec<Case> {
+pub(super) fn all() -> Vec<Case> {
     vec![
         ("condensation", condensations),
         ("increments", increments),
@@ -78,10 +76,15 @@ pub(super) const CYLINDER: &str = r#"{
 
 /// Returns a scene with changed settings.
 pub(super) fn scene(spec: &str, change: impl FnOnce(&mut Scene)) -> Result<Scene, BenchError> {
-    let mut scene = spec::read(spec.as_bytes())?.scene;
-    scene.accuracy.estimate_errors = false;
-    change(&mut scene);
-    Ok(scene)
+    Ok(resolved(spec, change)?.scene)
+}
+
+/// Returns a specification whose scene has changed settings.
+fn resolved(spec: &str, change: impl FnOnce(&mut Scene)) -> Result<Resolved, BenchError> {
+    let mut resolved = spec::read(spec.as_bytes())?;
+    resolved.scene.accuracy.estimate_errors = false;
+    change(&mut resolved.scene);
+    Ok(resolved)
 }
 
 /// Fixes the settings that are otherwise chosen from the tolerance.
@@ -214,19 +217,8 @@ fn friction_cycle() -> Result<Vec<Row>, BenchError> {
     ])
 }
 
-fn solved(what: impl Into<String>, size: &str, scene: &Scene) -> Result<Row, BenchError> {
-    let life = &LifeSettings::default();
-    let summary = solve::run(
-        solve::Case {
-            scene,
-            life,
-            motion: None,
-            blocks: &[],
-            resistance_lacks: &[],
-            follows_product: FollowsProduct::ALL,
-        },
-        &mut |_| ControlFlow::Continue(()),
-    )?;
+fn solved(what: impl Into<String>, size: &str, case: &Resolved) -> Result<Row, BenchError> {
+    let summary = solve::run(case.into(), &mut |_| ControlFlow::Continue(()))?;
     let size = format!(
         "{size}{} elements, {} computed cycles, {} increments",
         summary.accuracy.contact_elements,
@@ -237,10 +229,10 @@ fn solved(what: impl Into<String>, size: &str, scene: &Scene) -> Result<Row, Ben
 }
 
 fn reference() -> Result<Vec<Row>, BenchError> {
-    let scene = scene(MCCOLL, |scene| fix(scene, 0.01, 40, 100))?;
+    let case = resolved(MCCOLL, |scene| fix(scene, 0.01, 40, 100))?;
     let size = "10 um, 40 increments, jump 100: ";
     let what = "mccoll.json at the reference's resolution";
-    Ok(vec![solved(what, size, &scene)?])
+    Ok(vec![solved(what, size, &case)?])
 }
 
 fn mccoll(preset: &str, tolerance: f64) -> Result<Vec<Row>, BenchError> {
@@ -252,30 +244,30 @@ fn fuzz_button(preset: &str, tolerance: f64) -> Result<Vec<Row>, BenchError> {
 }
 
 fn at_preset(name: &str, spec: &str, preset: &str, tolerance: f64) -> Result<Vec<Row>, BenchError> {
-    let scene = scene(spec, |scene| scene.accuracy.tolerance = tolerance)?;
-    Ok(vec![solved(format!("{name}, {preset}"), "", &scene)?])
+    let case = resolved(spec, |scene| scene.accuracy.tolerance = tolerance)?;
+    Ok(vec![solved(format!("{name}, {preset}"), "", &case)?])
 }
 
 fn scaling_with_elements() -> Result<Vec<Row>, BenchError> {
     let row = |element: f64| {
-        let scene = scaled(element, 100, 6_000)?;
+        let case = scaled(element, 100, 6_000)?;
         let size = format!("{} um: ", 1e3 * element);
-        solved("scaling with elements", &size, &scene)
+        solved("scaling with elements", &size, &case)
     };
     ELEMENTS.into_iter().map(row).collect()
 }
 
 fn scaling_with_cycles() -> Result<Vec<Row>, BenchError> {
     let row = |cycles: u64| {
-        let scene = scaled(0.02, 20, cycles)?;
-        solved("scaling with cycles", &format!("{cycles} cycles: "), &scene)
+        let case = scaled(0.02, 20, cycles)?;
+        solved("scaling with cycles", &format!("{cycles} cycles: "), &case)
     };
     CYCLES.into_iter().map(row).collect()
 }
 
-/// Returns McColl's scene without snapshots.
-fn scaled(element_mm: f64, jump: u64, cycles: u64) -> Result<Scene, BenchError> {
-    scene(MCCOLL, |scene| {
+/// Returns McColl's specification without snapshots.
+fn scaled(element_mm: f64, jump: u64, cycles: u64) -> Result<Resolved, BenchError> {
+    resolved(MCCOLL, |scene| {
         fix(scene, element_mm, 40, jump);
         scene.cycles = cycles;
         scene.output.snapshots_at_cycles = Vec::new();
@@ -286,27 +278,22 @@ fn dofs(model: &Model) -> usize {
     model.bodies.slider.dofs() + model.bodies.receptacle.dofs()
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+#[test]
+fn a_friction_cycle_has_32_increments() {
+    let scene = scene(CYLINDER, |_| {}).expect("the specification is sound");
+    let (setup_s, cycle_s, increments) = time_cycle(&scene).expect("it can be solved");
+    assert!(setup_s > 0.0 && cycle_s > 0.0);
+    assert!((increments - 32.0).abs() < 1e-9, "{increments}");
+}
 
-    #[test]
-    fn a_friction_cycle_has_32_increments() {
-        let scene = scene(CYLINDER, |_| {}).expect("the specification is sound");
-        let (setup_s, cycle_s, increments) = time_cycle(&scene).expect("it can be solved");
-        assert!(setup_s > 0.0 && cycle_s > 0.0);
-        assert!((increments - 32.0).abs() < 1e-9, "{increments}");
-    }
-
-    #[test]
-    fn meshes_of_the_condensation_have_the_target_size() {
-        for target in CONDENSED {
-            let scene = sized(target).expect("a size is found");
-            let dofs = real(dofs(&build(&scene).expect("it can be meshed")));
-            assert!(
-                (0.8..=1.0).contains(&(dofs / target)),
-                "{dofs} for {target}"
-            );
-        }
+#[test]
+fn meshes_of_the_condensation_have_the_target_size() {
+    for target in CONDENSED {
+        let scene = sized(target).expect("a size is found");
+        let dofs = real(dofs(&build(&scene).expect("it can be meshed")));
+        assert!(
+            (0.8..=1.0).contains(&(dofs / target)),
+            "{dofs} for {target}"
+        );
     }
 }

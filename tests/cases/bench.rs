@@ -1,35 +1,32 @@
-//! Benchmarks of the engine on this machine.
-//!
-//! Processor time of this process, one case after the other; the smallest of a few repetitions where a case is short.
-//! Does not know the terminal.
+//! Benchmarks of the engine on this machine: processor time of this process, one case after the other; the smallest of a few repetitions
+//! where a case is short. `night` prints the tables of the documents.
 
-pub mod against;
+mod against;
 mod cases;
-pub mod predictions;
+mod night;
+pub(crate) mod predictions;
 
 use solver::SolveError;
 
-use crate::batch::accuracy::StudyError;
-use crate::estimate::machine::MachineError;
-use crate::solve::{Failure, cpu_s};
-use crate::spec::Refused;
-
-pub use cases::{Case, all};
+use server::batch::accuracy::StudyError;
+use server::estimate::machine::MachineError;
+use server::solve::{Failure, cpu_s};
+use server::spec::Refused;
 
 /// A measured case.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub(crate) struct Row {
     /// Name of the task.
-    pub what: String,
+    pub(crate) what: String,
     /// Size of the task.
-    pub size: String,
+    pub(crate) size: String,
     /// Processor seconds.
-    pub cpu_s: f64,
+    pub(crate) cpu_s: f64,
 }
 
 /// Why a case could not be measured.
 #[derive(Debug, thiserror::Error)]
-pub enum BenchError {
+pub(crate) enum BenchError {
     /// The specification is refused.
     #[error(transparent)]
     Refused(#[from] Refused),
@@ -65,4 +62,9 @@ fn measured<T, E>(times: u32, mut task: impl FnMut() -> Result<T, E>) -> Result<
         let (again_s, done) = once()?;
         Ok((best_s.min(again_s), done))
     })
+}
+
+/// A count as a real number.
+fn real(count: impl TryInto<u32>) -> f64 {
+    f64::from(count.try_into().unwrap_or(u32::MAX))
 }

@@ -7,51 +7,51 @@ use api::plan::MachineFigures;
 use api::results::Summary;
 use api::spec::{Accuracy, Spec, System, SystemKind};
 
-use crate::batch::accuracy::process;
-use crate::bench::BenchError;
+use server::batch::accuracy::process;
+use server::estimate::Estimate;
+use server::spec;
+use server::spec::{Refused, Resolved};
+
 use crate::bench::cases::{FUZZ_BUTTON, MCCOLL};
-use crate::estimate::Estimate;
-use crate::number::real;
-use crate::spec;
-use crate::spec::{Refused, Resolved};
+use crate::bench::{BenchError, real};
 
 /// Default tolerances: the presets and two between.
-pub const TOLERANCES: [f64; 5] = [0.1, 0.05, 0.02, 0.01, 0.003];
+pub(crate) const TOLERANCES: [f64; 5] = [0.1, 0.05, 0.02, 0.01, 0.003];
 
 /// An estimate and the measured value.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Pair {
+pub(crate) struct Pair {
     /// Its name.
-    pub what: &'static str,
+    pub(crate) what: &'static str,
     /// Estimate of the plan.
-    pub expected: f64,
+    pub(crate) expected: f64,
     /// Measured value of the run.
-    pub measured: f64,
+    pub(crate) measured: f64,
 }
 
 impl Pair {
     /// Expected over measured.
-    pub fn ratio(&self) -> f64 {
+    pub(crate) fn ratio(&self) -> f64 {
         self.expected / self.measured.max(f64::MIN_POSITIVE)
     }
 }
 
 /// The comparison for a scene at a tolerance.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Prediction {
+pub(crate) struct Prediction {
     /// The scene's name.
-    pub scene: String,
+    pub(crate) scene: String,
     /// The tolerance.
-    pub tolerance: f64,
+    pub(crate) tolerance: f64,
     /// Estimates and measured values.
-    pub pairs: Vec<Pair>,
+    pub(crate) pairs: Vec<Pair>,
 }
 
 /// Returns every system and both published scenes by name.
 ///
 /// # Errors
 /// [`BenchError`] if a committed specification cannot be read.
-pub fn scenes() -> Result<Vec<(String, Spec)>, BenchError> {
+pub(crate) fn scenes() -> Result<Vec<(String, Spec)>, BenchError> {
     let mut scenes: Vec<(String, Spec)> = SystemKind::ALL
         .iter()
         .map(|kind| {
@@ -73,7 +73,7 @@ pub fn scenes() -> Result<Vec<(String, Spec)>, BenchError> {
 ///
 /// # Errors
 /// [`BenchError`] if the solve fails.
-pub fn compare(
+pub(crate) fn compare(
     program: &Path,
     machine: &MachineFigures,
     (name, spec): &(String, Spec),
@@ -99,7 +99,7 @@ pub fn compare(
 ///
 /// # Errors
 /// [`BenchError`] if it is refused, or the solve fails.
-pub fn compare_specification(
+pub(crate) fn compare_specification(
     program: &Path,
     machine: &MachineFigures,
     specification: &str,
