@@ -137,29 +137,3 @@ fn last_profile(run: &Recorder, side: Side) -> &DepthProfile {
         Side::Receptacle => &last.receptacle,
     }
 }
-
-/// A limit of the wear in an increment shortens increments and jumps, and leaves the wear as it is.
-#[test]
-fn a_limit_of_the_wear_in_an_increment_changes_the_increments_alone() {
-    // Limits of a part of what the last increments wear without one.
-    for (name, stroke, limit_mm) in [("short", (0.004, 200), 2e-8), ("long", (0.1, 20), 1e-9)] {
-        let free = scene(stroke, ARCHARD, &Side::BOTH);
-        let run = |scene: &Scene| solve(scene).expect("the scene can be solved").0;
-        let unlimited = run(&free);
-        let mut limited = free.clone();
-        limited.accuracy.largest_wear_mm = Some(limit_mm);
-        let limited = run(&limited);
-        let found = difference(&limited, &unlimited);
-        let [more, less] = [&limited, &unlimited].map(|run| run.resolution.work.increments);
-        println!(
-            "{name} stroke, wear of an increment limited: {found:.1e}, {more} instead of {less} increments"
-        );
-        assert!(found < TOLERANCE && more > less, "{more} {less}");
-        let mut impossible = free.clone();
-        impossible.accuracy.largest_wear_mm = Some(1e-15);
-        let error = solve(&impossible)
-            .err()
-            .expect("no increment is that short");
-        assert!(error.to_string().contains("largest_wear_mm"), "{error}");
-    }
-}

@@ -78,9 +78,6 @@ pub struct Overrides {
         deserialize_with = "count::optional"
     )]
     pub stations: Option<u32>,
-    /// Most wear of a point in an increment, mm, as explicit schemes limit it; for comparison with them, the implicit solve needs none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub largest_wear_mm: Option<f64>,
 }
 
 /// Physical cycles per computed cycle: `"adaptive"` or a count.

@@ -15,8 +15,6 @@ pub(in crate::spec) const TOLERANCE: RangeInclusive<f64> = 1e-6..=0.5;
 const CONTACT_ELEMENT_LIMIT: f64 = 20_000.0;
 const CONTACT_ELEMENT: &str = "/accuracy/overrides/contact_element_mm";
 pub(in crate::spec) const INCREMENTS: RangeInclusive<u64> = 4..=1_000_000;
-/// Most wear of a point in an increment, mm; from below what wears in an increment of any contact.
-pub(in crate::spec) const LARGEST_WEAR_MM: RangeInclusive<f64> = 1e-12..=1.0;
 /// Increments a cycle of the source.
 const SOURCE_INCREMENTS: u32 = 32;
 
@@ -59,11 +57,6 @@ pub(crate) fn resolve(
         contact_element_mm: contact_element(overrides, shapes, diagnostics).or(source_element),
         increments_per_cycle: increments(overrides, diagnostics).or(source_increments),
         cycle_jump: cycle_jump(overrides, cycles, diagnostics),
-        largest_wear_mm: diagnostics.optional(
-            "/accuracy/overrides/largest_wear_mm",
-            overrides.largest_wear_mm,
-            &LARGEST_WEAR_MM,
-        ),
         estimate_errors,
         ..scene::Accuracy::from_tolerance(tolerance)
     };

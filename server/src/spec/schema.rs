@@ -119,7 +119,6 @@ fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
         ("Stop", "fraction", criterion::FRACTION),
         ("Stop", "mm", criterion::WORN_DEPTH_MM),
         ("Accuracy", "tolerance", accuracy::TOLERANCE),
-        ("Overrides", "largest_wear_mm", accuracy::LARGEST_WEAR_MM),
         ("Stop", "worn_depth_mm", criterion::WORN_DEPTH_MM),
     ];
     let laws = law::numbers().into_iter();

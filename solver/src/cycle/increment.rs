@@ -52,8 +52,8 @@ impl Integrator<'_> {
         let done = self
             .solver
             .advance(&self.pair, &surfaces, last, to, &mut self.next)?;
-        let limit = self.scene.accuracy.largest_wear_mm;
-        wear_limit::check(&self.spines, &state.depth, to.slider_x, &done, limit)?;
+        let worn = (done.first, done.recession);
+        wear_limit::check(&self.spines, &state.depth, to.slider_x, worn)?;
         for side in Side::BOTH {
             *state.worn_area.of_mut(side) += done.worn_area.of(side);
             let depths = &mut state.depth.of_mut(side)[*done.first.of(side)..];

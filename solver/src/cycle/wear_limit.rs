@@ -1,53 +1,17 @@
-//! Limits of the wear in one increment.
-//!
-//! Explicit schemes, which add dh = k p |ds| to the depths with the pressure of the increment's beginning (thesis, equation 14, whose
-//! indices of node and step are exchanged between its two terms), become erratic where an increment wears more than the contact is
-//! indented, so that Podra and Andersson (1999) limit it. The implicit solve is stable for any increment and needs no limit: one is an
-//! option for comparison with such schemes. Nothing is cut off: an increment beyond it is halved, and a jump whose increments cannot be
-//! halved any further is shortened, so that the worn area stays that of the law. Cycles that are extrapolated in a groove are no
-//! increments.
+//! Limit of the wear in one increment: implicit wear is stable for any increment, but an increment must leave part of both bodies.
 
 use crate::ale::Spines;
-use crate::contact::{ContactError, Increment};
+use crate::contact::ContactError;
 use crate::sides::{Side, Sides};
 
 /// Largest wear of an increment at a node over the remaining height there; an increment beyond it is halved.
 const LARGEST_SHARE: f64 = 0.9;
 
-/// Checks that an increment leaves part of both bodies, for worn depths in mm, and wears at most a depth in mm.
-///
-/// # Errors
-/// [`ContactError::TooMuchWear`], [`ContactError::BeyondWearLimit`].
-pub(crate) fn check(
-    spines: &Spines,
-    depth: &Sides<Vec<f64>>,
-    slider_x: f64,
-    done: &Increment<'_>,
-    largest_mm: Option<f64>,
-) -> Result<(), ContactError> {
-    if let Some(limit_mm) = largest_mm {
-        let recessions = done
-            .recession
-            .slider
-            .iter()
-            .chain(done.recession.receptacle);
-        let wear_mm = recessions.fold(0.0, |m: f64, d| m.max(*d));
-        if wear_mm > limit_mm {
-            return Err(ContactError::BeyondWearLimit {
-                slider_x_mm: slider_x,
-                wear_mm,
-                limit_mm,
-            });
-        }
-    }
-    leaves_part(spines, depth, slider_x, (done.first, done.recession))
-}
-
 /// Checks that recessions, mm, from a first node of each side on leave part of both bodies.
 ///
 /// # Errors
 /// [`ContactError::TooMuchWear`].
-pub(crate) fn leaves_part(
+pub(crate) fn check(
     spines: &Spines,
     depth: &Sides<Vec<f64>>,
     slider_x: f64,

@@ -305,7 +305,7 @@ impl Contact {
             .advance(&extruded, &surfaces, from, slide, into)?;
         for (state, worn) in self.planes.states.iter().zip(&self.worn) {
             let worn = (worn.first, worn.recession.as_slices());
-            wear_limit::leaves_part(&self.spines, &state.depth, to, worn)?;
+            wear_limit::check(&self.spines, &state.depth, to, worn)?;
         }
         self.accept(bodies, solved, cycles);
         Ok(())

@@ -17,8 +17,6 @@ pub struct Accuracy {
     pub increments_per_cycle: Option<u32>,
     /// Physical cycles per computed cycle; chosen from the tolerance if absent.
     pub cycle_jump: Option<u64>,
-    /// Most wear of a point in an increment, mm; no limit if absent (`cycle/wear_limit.rs`).
-    pub largest_wear_mm: Option<f64>,
     /// Constants by which the tolerance chooses these.
     pub tuning: Tuning,
     /// Factors on what is given or chosen.
@@ -59,7 +57,6 @@ impl Accuracy {
             contact_element_mm: None,
             increments_per_cycle: None,
             cycle_jump: None,
-            largest_wear_mm: None,
             tuning: Tuning::FITTED,
             refinement: Refinement::NONE,
             estimate_errors: false,

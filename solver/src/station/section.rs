@@ -183,7 +183,8 @@ impl Station {
         let done =
             self.solver
                 .advance(&pair, &surfaces, &self.state.contact, to, &mut self.next)?;
-        wear_limit::check(&self.spines, &self.state.depth, to.slider_x, &done, None)?;
+        let worn = (done.first, done.recession);
+        wear_limit::check(&self.spines, &self.state.depth, to.slider_x, worn)?;
         self.state.work += done.work;
         let attempt = &mut self.attempt;
         let slave = self.interface.slave;

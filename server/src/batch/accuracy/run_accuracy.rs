@@ -49,7 +49,6 @@ impl RunAccuracy {
                     increments_per_cycle: Some(settings.increments_per_cycle),
                     cycle_jump: Some(CycleJump::Fixed(settings.jump())),
                     stations: settings.stations,
-                    ..Overrides::default()
                 }),
                 estimate_errors: Some(false),
             },

@@ -25,10 +25,6 @@ pub(super) fn check(filled: &Spec, (name, motion): (&str, Motion), diagnostics: 
         );
         diagnostics.fault("/output/fields", detail);
     }
-    let overrides = filled.accuracy.overrides.as_ref();
-    if overrides.is_some_and(|overrides| overrides.largest_wear_mm.is_some()) {
-        diagnostics.foreign_field("/accuracy/overrides", "largest_wear_mm", name);
-    }
 }
 
 /// Wear by the dose alone, and one coefficient of friction.

@@ -88,10 +88,6 @@ fn fields_that_mean_nothing_in_a_dimension_are_refused() {
         (r#","load":{"kind":"pressure","mpa":1}"#, "/load/kind"),
         (r#","output":{"fields":true}"#, "/output/fields"),
         (
-            r#","accuracy":{"overrides":{"largest_wear_mm":1e-6}}"#,
-            "/accuracy/overrides/largest_wear_mm",
-        ),
-        (
             r#","motion":{"kind":"continuous","distance_mm":10}"#,
             "/motion/kind",
         ),

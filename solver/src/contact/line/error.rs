@@ -65,18 +65,6 @@ pub enum ContactError {
         /// Largest accepted value.
         limit: f64,
     },
-    /// An increment wears more than the scene allows.
-    #[error(
-        "the step to x = {slider_x_mm:.6} mm wears {wear_mm:.3e} mm off a point (at most {limit_mm:.3e} mm by `largest_wear_mm`)"
-    )]
-    BeyondWearLimit {
-        /// Imposed displacement, mm.
-        slider_x_mm: f64,
-        /// Largest wear of the increment, mm.
-        wear_mm: f64,
-        /// The limit, mm.
-        limit_mm: f64,
-    },
 }
 
 impl ContactError {
