@@ -61,5 +61,4 @@ async fn an_accuracy_study_runs_as_jobs_of_the_service() {
     };
     let drawing = String::from_utf8(picture("svg").await.to_vec()).expect("text");
     assert!(drawing.contains("processor time (s)"), "{drawing}");
-    assert!(picture("png").await.starts_with(b"\x89PNG"));
 }

@@ -56,10 +56,9 @@ export class Head {
     const { path, table, name } = KINDS[this.#kind];
     const file = `${name.replace(" ", "-")}-${id}`;
     const comparison = comparison_link(jobs.map((/** @type {{id: string}} */ job) => job.id));
-    const pictures = this.#kind === "accuracy" ? ["svg", "png"] : [];
     return [
       download_link(`${path}/${id}/${table}`, `${file}.csv`, "Table (CSV)"),
-      ...pictures.map((format) => download_link(`${path}/${id}/picture?format=${format}`, `${file}.${format}`, `Diagram (${format.toUpperCase()})`)),
+      this.#kind === "accuracy" ? download_link(`${path}/${id}/picture?format=svg`, `${file}.svg`, "Diagram (SVG)") : "",
       element("a", { href: link("jobs", null, { sweep: id }) }, "Its jobs in the list"),
       comparison ? element("a", { href: comparison }, "Compare its jobs") : "",
       element("a", { href: link("study", null, { as: this.#kind, batch: id }) }, "Clone and change"),

@@ -43,7 +43,6 @@ pub(super) fn run(arguments: &SolveArguments) -> Ended {
             summary: solved.as_ref().ok(),
             rows: &recorded.rows,
             snapshots: &recorded.snapshots,
-            pixels: true,
         };
         if let Err(error) = files::write(folder, &results, &recorded.fields) {
             if let Ok(summary) = &solved {

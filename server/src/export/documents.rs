@@ -20,8 +20,6 @@ pub const CSV: &str = "text/csv; charset=utf-8";
 pub const PARQUET: &str = "application/vnd.apache.parquet";
 /// Media type of vector pictures.
 pub const SVG: &str = "image/svg+xml";
-/// Media type of raster pictures.
-pub const PNG: &str = "image/png";
 /// Media type of fields inside the bodies: VTK XML, for which no type is registered.
 pub const VTU: &str = "application/xml";
 
@@ -49,8 +47,6 @@ pub struct Results<'a> {
     pub rows: &'a [CycleReport],
     /// The snapshots.
     pub snapshots: &'a [Snapshot],
-    /// Whether pictures are rasterised too, which takes about 0.1 s of processor time.
-    pub pixels: bool,
 }
 
 /// Why a document could not be rendered.
@@ -111,10 +107,6 @@ pub fn all(results: &Results<'_>) -> Result<Vec<Document>, DocumentError> {
     let life = life(name, results.spec, &record);
     for (picture, drawn) in drawn.into_iter().chain(life) {
         let drawing = pictures::svg(&drawn)?;
-        if results.pixels {
-            let pixels = pictures::png(&drawing)?;
-            add(format!("{picture}.png"), None, PNG, pixels);
-        }
         add(format!("{picture}.svg"), None, SVG, drawing.into_bytes());
     }
     Ok(documents)

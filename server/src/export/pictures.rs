@@ -1,13 +1,12 @@
-//! Plots: panels of curves and markers, drawn as SVG; the PNG is rasterised from the SVG.
+//! Plots: panels of curves and markers, drawn as SVG.
 //!
-//! Text is measured and rasterised with an embedded font, so that no system font is needed and the same data give the
+//! Text is measured with an embedded font, so that no system font is needed and the same data give the
 //! same picture on every machine. Apart from `run`, `line`, `life` and `maps`, nothing here knows the meaning of the numbers.
 
 mod axis;
 mod canvas;
 mod colour;
 mod colour_map;
-mod raster;
 mod ticks;
 
 pub mod life;
@@ -21,7 +20,6 @@ pub use axis::{Axis, AxisRange, Scale};
 pub use canvas::svg;
 pub use colour::{COLOURS, Colour, ramp};
 pub use colour_map::{ColourMap, MapPanel, svg as colour_map};
-pub use raster::png;
 
 /// A picture: panels one above the other with a common legend.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,7 +73,4 @@ pub enum PlotError {
     /// SVG could not be written.
     #[error("drawing a picture: {0}")]
     Drawing(#[from] DrawingAreaErrorKind<std::io::Error>),
-    /// The SVG could not be rasterised.
-    #[error("rasterising a picture: {0}")]
-    Raster(String),
 }

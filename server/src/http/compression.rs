@@ -11,7 +11,7 @@ use tower_http::compression::predicate::{And, Predicate, SizeAbove};
 const LEAST_BYTES: u64 = 1024;
 /// Level of gzip and Brotli: higher ones take several times as long for some per cent.
 const LEVEL: CompressionLevel = CompressionLevel::Precise(4);
-/// Media types that are compressed. Streams of events are sent as they come; archives, Parquet and raster pictures are
+/// Media types that are compressed. Streams of events are sent as they come; archives and Parquet are
 /// compressed already; fields inside the bodies are long.
 const MEDIA_TYPES: [&str; 9] = [
     "application/json",

@@ -41,7 +41,6 @@ pub(super) async fn make_documents(
             rows: &computed.rows,
             snapshots: &computed.snapshots,
             // Users of the service have a browser, which draws SVG.
-            pixels: false,
         })?;
         let mut block = Block::default();
         block

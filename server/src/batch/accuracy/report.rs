@@ -6,7 +6,7 @@ use api::study::{Errors, Orders, Study};
 use comfy_table::{ColumnConstraint, Table};
 
 use crate::export::csv;
-use crate::export::documents::{CSV, Document, DocumentError, JSON, PNG, SVG};
+use crate::export::documents::{CSV, Document, DocumentError, JSON, SVG};
 use crate::export::{markdown, pictures};
 
 /// Column of the sections along a line, hidden where there are none.
@@ -15,13 +15,12 @@ const SECTIONS: usize = 6;
 /// mm to um.
 const UM: f64 = 1e3;
 
-/// Returns the study's files: `study.json`, `study.csv`, `study.svg`, `study.png`.
+/// Returns the study's files: `study.json`, `study.csv`, `study.svg`.
 ///
 /// # Errors
 /// [`DocumentError`] if one cannot be made.
 pub fn documents(study: &Study) -> Result<Vec<Document>, DocumentError> {
     let drawing = svg(study)?;
-    let pixels = pictures::png(&drawing)?;
     let document = |name: &str, media_type, bytes| Document {
         name: name.to_owned(),
         cycle: None,
@@ -32,7 +31,6 @@ pub fn documents(study: &Study) -> Result<Vec<Document>, DocumentError> {
         document("study.json", JSON, serde_json::to_vec_pretty(study)?),
         document("study.csv", CSV, csv::study(study)?),
         document("study.svg", SVG, drawing.into_bytes()),
-        document("study.png", PNG, pixels),
     ])
 }
 
@@ -42,14 +40,6 @@ pub fn documents(study: &Study) -> Result<Vec<Document>, DocumentError> {
 /// [`DocumentError`] if it cannot be drawn.
 pub fn svg(study: &Study) -> Result<String, DocumentError> {
     Ok(pictures::svg(&picture::work_precision(study))?)
-}
-
-/// Draws the work-precision diagram as PNG.
-///
-/// # Errors
-/// [`DocumentError`] if it cannot be drawn.
-pub fn png(study: &Study) -> Result<Vec<u8>, DocumentError> {
-    Ok(pictures::png(&svg(study)?)?)
 }
 
 /// Returns the study as text: runs, reference, observed orders.

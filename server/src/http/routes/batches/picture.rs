@@ -8,7 +8,7 @@ use serde::Deserialize;
 use utoipa::{IntoParams, ToSchema};
 
 use crate::batch::accuracy::{self, report};
-use crate::export::documents::{PNG, SVG};
+use crate::export::documents::SVG;
 use crate::http::app::App;
 use crate::http::extract::{BatchId, Params};
 use crate::http::problem::ProblemResponse;
@@ -21,8 +21,6 @@ pub(crate) enum PictureFormat {
     /// SVG.
     #[default]
     Svg,
-    /// PNG.
-    Png,
 }
 
 /// Options of the picture.
@@ -30,7 +28,7 @@ pub(crate) enum PictureFormat {
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PictureQuery {
-    /// `svg` or `png`.
+    /// `svg`.
     #[serde(default)]
     format: PictureFormat,
 }
@@ -42,10 +40,7 @@ pub(crate) struct PictureQuery {
     tag = "studies",
     params(PictureQuery),
     responses(
-        (status = 200, description = "The picture", content(
-            (Vec<u8> = "image/svg+xml"),
-            (Vec<u8> = "image/png"),
-        )),
+        (status = 200, description = "The picture", content_type = "image/svg+xml", body = Vec<u8>),
         (status = 404, description = "No such study, or no results so far", body = Problem),
         (status = 410, description = "Queued by a version whose studies cannot be compared any more", body = Problem),
     )
@@ -59,7 +54,6 @@ pub(crate) async fn study_picture(
         let study = accuracy::study(&stored)?;
         Ok(match query.format {
             PictureFormat::Svg => (SVG, report::svg(&study)?.into_bytes()),
-            PictureFormat::Png => (PNG, report::png(&study)?),
         })
     };
     let read = (BatchPart::WHOLE, batch.kind.document_detail());

@@ -18,7 +18,6 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use crate::export::files::is_plain_name;
-use crate::export::pictures;
 use crate::http::app::{App, MAX_ARCHIVES};
 use crate::http::extract::JobId;
 use crate::http::job_error::JobError;
@@ -141,36 +140,12 @@ fn write_archive(app: &App, archived: &Archived, writer: ChunkWriter) -> io::Res
             let (_, content) = stored.ok_or_else(|| io::Error::other("the job was deleted"))?;
             content
         };
-        match &content {
-            Content::Inline(bytes) => archive.write_all(bytes)?,
-            content => copy(app, (archived.id, file), content.clone(), &mut archive)?,
-        }
-        if let Some(picture) = picture_of(&archived.files, &file.name) {
-            // `fretwear solve --out` writes it too; it is not stored, because browsers show the drawing.
-            match raster(&runtime, content) {
-                Ok(pixels) => {
-                    archive.start_file(picture, options)?;
-                    archive.write_all(&pixels)?;
-                }
-                // The drawing of an earlier version may not be valid XML.
-                Err(error) => tracing::warn!(job = %archived.id, %error, "a picture was left out"),
-            }
+        match content {
+            Content::Inline(bytes) => archive.write_all(&bytes)?,
+            content => copy(app, (archived.id, file), content, &mut archive)?,
         }
     }
     archive.finish()?.into_inner().flush()
-}
-
-/// The name of the picture of a drawing, unless it is stored, as earlier versions did.
-fn picture_of(files: &[ResultFile], drawing: &str) -> Option<String> {
-    let picture = format!("{}.png", drawing.strip_suffix(".svg")?);
-    let is_stored = files.iter().any(|file| file.name == picture);
-    (!is_stored).then_some(picture)
-}
-
-fn raster(runtime: &Handle, drawing: Content) -> io::Result<Vec<u8>> {
-    let svg = runtime.block_on(drawing.read()).map_err(io::Error::other)?;
-    let svg = String::from_utf8(svg).map_err(io::Error::other)?;
-    pictures::png(&svg).map_err(io::Error::other)
 }
 
 /// Copies a content into an archive, and checks it meanwhile.
