@@ -96,7 +96,7 @@ fn pictures_are_drawn_without_system_fonts() {
     for (name, picture) in pictures("a run", &history(), &snapshots) {
         let drawing = svg(&picture).expect("it can be drawn");
         assert!(drawing.contains("a run"), "{name}");
-        assert!(drawing.contains("cycles"), "{name}");
+        assert!(drawing.matches("<text").count() > 10, "{name}");
     }
 }
 
