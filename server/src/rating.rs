@@ -13,7 +13,7 @@ use api::problem::Fault;
 use api::rating::{Rating, RatingRun};
 use api::results::LifeStatus;
 use api::spec::{Criterion, LifeSettings, Spec, Stop};
-use solver::model::expected_wear;
+use solver::closed_form::expected_wear;
 use solver::scene::Scene;
 
 use crate::number::real;

@@ -18,6 +18,7 @@ use solver::record::{Position, Snapshot};
 use solver::scene::Scene;
 
 use crate::export::documents::{JSON, SVG, VTU};
+use crate::export::files::FieldsFile;
 use crate::export::vtu::VtuError;
 use crate::export::{history, life, line, line_maps, maps, mission, pictures, vtu};
 use crate::spec::Resolved;
@@ -26,7 +27,7 @@ use checkpoint::{Checkpoint, CheckpointPolicy, EncodedCheckpoint};
 use cost::Stopwatch;
 pub use cost::{children_cpu_s, cpu_s, thread_cpu_s};
 pub(crate) use process::LINE_LIMIT;
-pub use protocol::{Failure, FieldsFile, Line};
+pub use protocol::{Failure, Line};
 
 /// What is solved.
 #[derive(Debug, Clone, Copy)]

@@ -49,6 +49,7 @@
 //! Times are milliseconds since 1970 and the store's own. Leases are lengths: when one ends is a matter of a monotonic clock of the process
 //! that serves a file ([`Store::clock`]), and of the clock of a database that several processes serve.
 
+mod address;
 mod backup;
 mod batch_counts;
 mod batch_rows;
@@ -56,6 +57,7 @@ mod batches;
 pub mod block;
 mod candidates;
 mod changes;
+mod checkpoint_object;
 mod checkpoints;
 mod circuit_breaker;
 mod compression;
@@ -65,6 +67,7 @@ mod document;
 mod ending;
 mod error;
 mod events;
+mod file_key;
 mod file_objects;
 mod folder;
 mod gauges;
@@ -98,6 +101,7 @@ mod verified_content;
 mod verify;
 mod workers;
 
+pub use address::shown_address;
 pub use backup::{BackupError, CopySummary};
 pub use batches::{
     BatchDetail, BatchEnding, BatchFilter, BatchJob, BatchOverview, BatchPart, Expansion, NewBatch,
@@ -117,7 +121,7 @@ pub use leases::{
 };
 pub use limits::Limits;
 pub use list_order::{ListPlace, Listed, Order, OrderKey, OrderValue};
-pub use operations::{Store, shown_address};
+pub use operations::Store;
 pub use results::{Chunks, Content, ContentError, NewContent, NewFile, SnapshotPart, StoredEvent};
 pub use sqlite::OWNER_HEARTBEAT;
 pub use sqlite::backup::{backup, restore};

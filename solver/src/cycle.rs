@@ -29,11 +29,12 @@ mod warm_starts;
 pub(crate) mod wear_limit;
 
 use crate::ale::Spines;
+use crate::closed_form::expected_wear;
 use crate::condensation::Operators;
 use crate::contact::{self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces};
 use crate::law::surface::SurfaceWear;
 use crate::model::friction::ContactFriction;
-use crate::model::{Interface, Model, Tangential, expected_wear};
+use crate::model::{Interface, Model, Tangential};
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::{Motion, Scene, TimedMotion};
 use crate::schedule::increments::{self, Position};

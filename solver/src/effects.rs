@@ -9,7 +9,6 @@ mod bending;
 mod choice;
 mod decision;
 mod dimension;
-mod effect;
 pub mod extent;
 mod indicators;
 mod line;
@@ -17,13 +16,11 @@ mod plasticity;
 mod point;
 mod reason;
 pub mod small_strain;
-mod switches;
 
 pub use decision::{Decision, Indicator, Verdict};
-pub use effect::Effect;
-pub use switches::Switches;
 
 use crate::electrical::ElectricalState;
+use crate::scene::Effect;
 use crate::scene::{Scene, SurfaceEffects};
 use crate::sides::Sides;
 use indicators::Indicators;

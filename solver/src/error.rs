@@ -4,6 +4,7 @@ use crate::checkpoint::Misfit;
 use crate::condensation::OperatorError;
 use crate::cycle::CycleError;
 use crate::extruded::ExtrudedError;
+use crate::fields::FieldsError;
 use crate::mesh::MeshError;
 use crate::point::PointError;
 use crate::station::StationError;
@@ -38,5 +39,14 @@ impl SolveError {
     /// Whether wider zones of fine elements would help.
     pub(crate) fn needs_wider_zones(&self) -> bool {
         matches!(self, Self::Cycle(error) if error.needs_wider_zones())
+    }
+}
+
+impl From<FieldsError> for SolveError {
+    fn from(error: FieldsError) -> Self {
+        match error {
+            FieldsError::Mesh(error) => Self::Mesh(error),
+            FieldsError::Operators(error) => Self::Operators(error),
+        }
     }
 }

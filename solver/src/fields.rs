@@ -6,13 +6,13 @@
 mod along_line;
 mod antiplane;
 mod common_mesh;
+mod error;
 mod extruded;
 mod prisms;
 mod tractions;
 
 use nalgebra::Matrix3;
 
-use crate::SolveError;
 use crate::ale;
 use crate::condensation::{Condensed, OperatorError};
 use crate::contact::ContactState;
@@ -26,6 +26,7 @@ use crate::sides::{Side, Sides};
 
 pub use along_line::{LineFields, SectionFields, SweptFields};
 pub(crate) use along_line::{SectionState, along_line};
+pub use error::FieldsError;
 pub(crate) use extruded::{ExtrudedSections, extruded};
 pub use tractions::SurfaceFields;
 
@@ -135,16 +136,16 @@ impl Stress {
 /// Fields of both bodies in the states of contact that a cycle recorded, the meshes at the present worn surfaces.
 ///
 /// # Errors
-/// [`SolveError`] if the present surfaces would invert an element, or a mesh cannot be factored again.
+/// [`FieldsError`] if the present surfaces would invert an element, or a mesh cannot be factored again.
 pub fn placed(
     model: &Model,
     condensed: &Condensed,
     depth: &Sides<Vec<f64>>,
     contacts: &[(Position, ContactState)],
-) -> Result<Vec<PlacedFields>, SolveError> {
+) -> Result<Vec<PlacedFields>, FieldsError> {
     let worn = ale::relocate(model, depth)?;
     let at = |(position, contact): &(Position, ContactState)| {
-        let body = |side: Side| -> Result<BodyFields, SolveError> {
+        let body = |side: Side| -> Result<BodyFields, FieldsError> {
             let operators = condensed.operators.of(side);
             let zone = operators.zone_number(&contact.loaded(side)).unwrap_or(0);
             let (sign, load, place) = match side {

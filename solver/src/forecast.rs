@@ -20,8 +20,8 @@ mod line;
 mod point;
 mod surrogate;
 
+use crate::closed_form::expected_wear::expected_end;
 use crate::model::Layout;
-use crate::model::expected_wear::expected_end;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Scene;
 use crate::schedule::mission::MissionPosition;

@@ -3,6 +3,7 @@
 pub mod ale;
 pub mod along_line;
 pub mod checkpoint;
+pub mod closed_form;
 pub mod condensation;
 pub mod contact;
 pub mod cycle;
@@ -23,6 +24,7 @@ mod number;
 pub mod observer;
 pub mod point;
 pub mod record;
+pub mod resolution;
 pub mod run;
 pub mod scene;
 pub mod schedule;

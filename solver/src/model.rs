@@ -1,29 +1,23 @@
 //! The model: two meshed bodies with their surfaces, materials and supports. Knows both meshes and laws.
 
-mod constraint_side;
-pub mod expected_life;
-pub mod expected_wear;
 pub(crate) mod friction;
 pub mod layout;
-pub mod line_contact;
 pub mod profile;
-pub mod resolution;
-pub mod unworn_contact;
-pub(crate) mod worn_cap;
-pub(crate) mod worn_depth;
 mod zones;
 
-use crate::effects::{Effect, EffectsPlan};
+use crate::closed_form::unworn_contact;
+use crate::effects::EffectsPlan;
 use crate::element;
 use crate::law::elastic::{Lame, contact_modulus, plane_strain_compliance};
 use crate::law::surface::SurfaceWear;
 use crate::mesh::{ColumnMesh, MeshError, grading};
+use crate::resolution::Sizes;
+use crate::scene::Effect;
 use crate::scene::{Drive, Elastic, Scene, SurfaceEffects};
 use crate::sides::{Side, Sides};
 
 pub use layout::{BodyLayout, Layout};
 pub use profile::Profile;
-pub use resolution::Sizes;
 pub(crate) use zones::ZONE_WIDENING;
 pub use zones::{Zone, ZoneSizes};
 

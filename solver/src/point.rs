@@ -11,9 +11,9 @@
 //! exact for like bodies. Limiting cases: Hertz' contact without wear; in gross slip the worn volume is k F s on either side; Mindlin's
 //! loop in partial slip.
 
+mod check;
 mod error;
 mod field;
-mod hertz;
 mod integrator;
 mod jump;
 mod lattice;
@@ -21,7 +21,6 @@ mod placed;
 mod point_state;
 mod record;
 mod run;
-mod scene;
 mod section;
 mod sliding;
 mod spring;
@@ -37,7 +36,3 @@ pub(crate) use placed::Placed;
 pub use point_state::PointState;
 pub use record::{DepthMap, PointCycle, PointOutcome, PointSummary};
 pub use run::run;
-pub use scene::{
-    PointAccuracy, PointBody, PointScene, SlipRegime, cell_mm, half_lengths_mm,
-    middle_line_load_n_per_mm,
-};

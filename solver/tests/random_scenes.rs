@@ -12,8 +12,8 @@ mod contact;
 use std::f64::consts::PI;
 
 use fastrand::Rng;
-use solver::effects::Switches;
 use solver::model::Layout;
+use solver::scene::Switches;
 use solver::scene::{
     Accuracy, Body, Conduction, Dimension, Drive, Friction, Layer, Motion, Output, Scene,
     Softening, Timing, WearLaw,

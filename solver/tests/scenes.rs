@@ -1,6 +1,6 @@
 //! The scenes of the suite.
 
-use solver::effects::Switches;
+use solver::scene::Switches;
 use solver::scene::{
     Accuracy, BlockShape, Body, Conduction, Dimension, Drive, Elastic, Friction, Motion, Output,
     Scene, SliderShape, Softening, Timing, WearLaw,

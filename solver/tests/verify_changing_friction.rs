@@ -153,7 +153,7 @@ fn every_place_in_gross_slip_is_on_the_cone_of_its_own_coefficient() {
         let mut scene = with(&scene, friction);
         // Otherwise the plan leaves the shear out of the solve.
         for on in [false, true] {
-            let effect = solver::effects::Effect::Friction;
+            let effect = solver::scene::Effect::Friction;
             scene.effects = scene.effects.clone().with(effect, on);
             let (summary, run) = solve(&scene).expect("the scene can be solved");
             assert!(

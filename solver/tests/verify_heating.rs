@@ -7,11 +7,12 @@ use crate::scenes::mccoll;
 use crate::verify_mission::with_mission;
 use crate::verify_resume::resumes_to_the_same_bits;
 use solver::SolveError;
-use solver::effects::{Effect, EffectsPlan, Verdict, plan};
+use solver::effects::{EffectsPlan, Verdict, plan};
 use solver::error_control;
 use solver::law::resistance::Deformation;
 use solver::observer::{Event, Observer, Phase};
 use solver::record::Summary;
+use solver::scene::Effect;
 use solver::scene::{
     Accuracy, Block, Conduction, Conductor, Electrical, Friction, Metal, MildOxidation, Motion,
     Scene, SpeedLaw, Spots, SurfaceState, Temperature, Timing, WearLaw,

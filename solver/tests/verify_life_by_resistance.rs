@@ -9,8 +9,8 @@ use crate::verify_contact_resistance::{FILM, FORCE, clean_and_covered, filmed, l
 use crate::verify_plating::{RATES, THICKNESS, layer};
 use crate::verify_section_and_ball::as_ball;
 use fastrand::Rng;
+use solver::closed_form::half_lengths_mm;
 use solver::law::resistance::{Film, Growth};
-use solver::point::half_lengths_mm;
 use solver::record::CriterionState;
 use solver::scene::{Accuracy, Conduction, Criterion, Motion, Scene};
 use solver::sides::Side;

@@ -1,9 +1,9 @@
 //! Fields inside the bodies of a contact along a line against what they must be: those of the plane contact where all sections are alike, and the
 //! load as the sum of the pressure on their surfaces.
 
-use solver::effects::Effect;
 use solver::fields::{BodyFields, LineFields, SectionFields};
 use solver::record::{Position, Snapshot};
+use solver::scene::Effect;
 use solver::scene::{Accuracy, Dimension, Scene, Top};
 use solver::sides::Side;
 

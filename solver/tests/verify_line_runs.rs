@@ -3,8 +3,8 @@
 //! A spring of 0.4 mm, 0.8 mm wide, under 0.5 N on a flat, +-20 um: that of a memory card, straight or with a crown of 10 mm.
 
 use solver::along_line::Along;
-use solver::effects::Effect;
 use solver::record::{Outcome, Summary};
+use solver::scene::Effect;
 use solver::scene::{
     Accuracy, Criterion, Dimension, Layer, Line, LineShape, Motion, Refinement, RingMotion, Scene,
     Top, WearLaw,

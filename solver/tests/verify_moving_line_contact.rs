@@ -12,7 +12,7 @@
 
 use crate::recorder::solve;
 use crate::scenes::mccoll;
-use solver::effects::{Effect, Switches};
+use solver::scene::{Effect, Switches};
 use solver::scene::{Friction, Motion, Scene, WearLaw};
 
 const K: f64 = 1e-10;

@@ -8,11 +8,12 @@ use crate::verify_mission::{RATE, block, last_profiles, with_mission};
 use crate::verify_resume::resumes_to_the_same_bits;
 use solver::condensation::condense;
 use solver::cycle::{CycleState, Integrator};
-use solver::effects::{self, Effect, Switches};
+use solver::effects;
 use solver::forecast::forecast;
 use solver::model::{self, Layout};
 use solver::record::FrictionLoop;
 use solver::scene::{Accuracy, Block, Motion, Scene, Timing, TurningPoints, WearLaw};
+use solver::scene::{Effect, Switches};
 use solver::sides::Side;
 
 /// A motion between these places, mm.

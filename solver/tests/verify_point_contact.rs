@@ -13,10 +13,11 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use solver::closed_form::{PointAccuracy, PointBody, PointScene, SlipRegime};
 use solver::law::elastic::Elastic;
 use solver::law::surface::SurfaceWear;
 use solver::law::wear::WearLaw;
-use solver::point::{PointAccuracy, PointBody, PointScene, PointSummary, SlipRegime, run};
+use solver::point::{PointSummary, run};
 use solver::sides::Sides;
 
 const COPPER: Elastic = Elastic {

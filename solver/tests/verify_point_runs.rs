@@ -2,9 +2,10 @@
 //!
 //! A ball of 0.4 mm under 0.5 N on a flat, +-20 um: the spring of a memory card.
 
-use solver::effects::{self, Effect};
-use solver::point::middle_line_load_n_per_mm;
+use solver::closed_form::middle_line_load_n_per_mm;
+use solver::effects;
 use solver::record::{Outcome, Quantity, Summary};
+use solver::scene::Effect;
 use solver::scene::{Accuracy, Criterion, Layer, Motion, Refinement, Scene, WearLaw};
 use solver::sides::Side;
 

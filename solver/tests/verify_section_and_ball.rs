@@ -5,8 +5,8 @@
 //! ```
 //! The plan states the ratio of both lives (`effects::across_width`).
 
+use solver::closed_form::middle_line_load_n_per_mm;
 use solver::law::elastic::Elastic;
-use solver::point::middle_line_load_n_per_mm;
 use solver::record::Outcome;
 use solver::scene::{Accuracy, Criterion, Dimension, Motion, Point, Scene, WearLaw};
 use solver::sides::{Side, Sides};

@@ -5,8 +5,8 @@ use crate::scenes::mccoll;
 use crate::verify_plating::layer;
 use solver::condensation::{Condensed, condense};
 use solver::cycle::{CycleState, Integrator};
-use solver::effects::{Effect, Switches};
 use solver::model::{self, Model};
+use solver::scene::{Effect, Switches};
 use solver::scene::{Friction, Motion, Rhee, Scene, WearLaw};
 use solver::sides::{Side, Sides};
 

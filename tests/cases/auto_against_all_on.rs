@@ -9,9 +9,10 @@ mod scenes;
 
 use comfy_table::{Table, presets};
 use serde_json::Value;
-use solver::effects::{self, Effect, EffectsPlan, Switches, Verdict};
+use solver::effects::{self, EffectsPlan, Verdict};
 use solver::record::Summary;
 use solver::scene::Scene;
+use solver::scene::{Effect, Switches};
 
 use crate::hard::run::{self, Run};
 use difference::largest;

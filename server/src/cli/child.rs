@@ -15,14 +15,14 @@ use signal_hook::consts::SIGTERM;
 use crate::cli::arguments::ChildArguments;
 use crate::cli::terminal::{Ended, failed, refused, write_err};
 use crate::export::files;
-use crate::export::files::FilesError;
+use crate::export::files::{FieldsFile, FilesError};
 use crate::solve;
 use crate::solve::checkpoint::CheckpointPolicy;
 use crate::solve::process::NAME;
 use crate::solve::protocol::{
     COMMAND, EXIT_DISK_FULL, EXIT_FILE_NOT_WRITTEN, EXIT_ORPHANED, Input,
 };
-use crate::solve::{Failure, FieldsFile, Line};
+use crate::solve::{Failure, Line};
 use crate::spec;
 
 /// Pause before a full disk is tried again.

@@ -19,8 +19,9 @@ use crate::estimate::Estimate;
 use crate::estimate::machine::{CalibrationCache, cache_file};
 use crate::export::documents::Results;
 use crate::export::files;
+use crate::export::files::FieldsFile;
 use crate::solve;
-use crate::solve::{Failure, FieldsFile, Line};
+use crate::solve::{Failure, Line};
 use crate::spec::Resolved;
 
 /// An hour, s: in a terminal, a solve that is expected to take more processor time is confirmed first.

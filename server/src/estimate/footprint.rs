@@ -11,7 +11,7 @@ use solver::scene::{Dimension, Line, LineShape, Scene};
 
 use crate::estimate::workload::Workload;
 use crate::number::real;
-use solver::point::cell_mm as point_cell_mm;
+use solver::closed_form::cell_mm as point_cell_mm;
 
 /// Memory of the process without a model, MB.
 const MEMORY_BASE_MB: f64 = 9.5;

@@ -2,7 +2,7 @@
 
 use api::plan::{PlannedLife, RatedLife};
 use api::spec::{Criterion, CriterionKind, EnumValue};
-use solver::model::expected_life;
+use solver::closed_form::expected_life;
 use solver::scene::{self, Motion, Scene};
 
 use crate::number::real;

@@ -1,9 +1,10 @@
 //! Notes of a plan: contradictions in the source of the presets that concern the values of the specification.
 
 use api::spec::{EnumValue, LoadKind, Preset, Provenance, Spec, SystemKind, WearLaw};
-use solver::model::expected_wear::crown_half_lengths_mm;
-use solver::model::{resolution, unworn_contact};
-use solver::point::{PointScene, SlipRegime};
+use solver::closed_form::expected_wear::crown_half_lengths_mm;
+use solver::closed_form::unworn_contact;
+use solver::closed_form::{PointScene, SlipRegime};
+use solver::resolution;
 use solver::scene::{LineShape, RingMotion};
 
 use crate::spec::{Resolved, material_name};

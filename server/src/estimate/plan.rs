@@ -3,9 +3,9 @@
 
 use api::plan::{MachineFigures, Plan, PlannedEffect, Warning};
 use api::problem::Fault;
+use solver::closed_form::unworn_contact;
+use solver::closed_form::{PointScene, SlipRegime};
 use solver::effects::{self, Indicator};
-use solver::model::unworn_contact;
-use solver::point::{PointScene, SlipRegime};
 use solver::scene::Scene;
 
 use crate::estimate::expected_time::ExpectedTime;

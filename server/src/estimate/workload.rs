@@ -3,12 +3,13 @@
 
 use std::collections::BTreeMap;
 
-use solver::effects::{self, Effect};
+use solver::effects;
 use solver::error_control::{companion_scenes, may_restart};
 use solver::extruded::ExtrudedScene;
 use solver::forecast::{LineForecast, forecast, line_forecast, point_forecast};
 use solver::law::surface::SurfaceWear;
 use solver::model::{BodyLayout, Layout};
+use solver::scene::Effect;
 use solver::scene::Scene;
 use solver::sides::{Side, Sides};
 

@@ -8,11 +8,11 @@
 pub mod cycle;
 pub mod extruded;
 
-use solver::effects::Effect;
 use solver::interpolation;
 use solver::law::elastic::Lame;
 use solver::mesh::columns::Cell;
 use solver::model::{BodyModel, Model, ZoneModel};
+use solver::scene::Effect;
 use solver::scene::{Elastic, Scene};
 use solver::sides::Sides;
 

@@ -13,7 +13,19 @@ use uuid::Uuid;
 use crate::export::documents;
 use crate::export::documents::{DocumentError, Results};
 use crate::export::earlier;
-use crate::solve::FieldsFile;
+
+/// Fields or maps as a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FieldsFile {
+    /// File name.
+    pub name: String,
+    /// Cycle of the fields.
+    pub cycle: u64,
+    /// Media type.
+    pub media_type: &'static str,
+    /// Content.
+    pub bytes: Vec<u8>,
+}
 
 /// Why a file was not written.
 #[derive(Debug, thiserror::Error)]

@@ -7,9 +7,10 @@ use api::results::{
     EstimatedError, EstimatedErrors, ExposedLayer, Initial, LifeEntry, Loop, Pressure, Profile,
     SideProfile, SideSummary, Snapshot, Station, Summary, WearHistory,
 };
-use solver::effects::{Crossing, Effect, Verdict};
+use solver::effects::{Crossing, Verdict};
 use solver::observer;
 use solver::record::{self, Layer, Record, Side, SideReport};
+use solver::scene::Effect;
 
 use crate::export::{line, resistance, tractions};
 

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use solver::SolveError;
 use solver::record::CycleReport;
 
+use crate::export::files::FieldsFile;
 use crate::solve::checkpoint::{Checkpoint, EncodedCheckpoint};
 
 /// The command of a solving process, its first argument.
@@ -62,19 +63,6 @@ impl Line {
     pub(crate) fn is_last(&self) -> bool {
         matches!(self, Self::Summary(_) | Self::Failed(_) | Self::Stopped)
     }
-}
-
-/// Fields or maps as a file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FieldsFile {
-    /// File name.
-    pub name: String,
-    /// Cycle of the fields.
-    pub cycle: u64,
-    /// Media type.
-    pub media_type: &'static str,
-    /// Content.
-    pub bytes: Vec<u8>,
 }
 
 /// A failure of the solve itself.

@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use api::problem::Fault;
 use api::spec::{EnumValue, Switch};
-use solver::effects::{Effect, EffectsPlan, Switches, Verdict, small_strain};
+use solver::effects::{EffectsPlan, Verdict, small_strain};
 use solver::law::softening::MOLTEN;
+use solver::scene::{Effect, Switches};
 use solver::scene::{Friction, Scene};
 
 use crate::spec::diagnostics::{Diagnostics, shortened};

@@ -9,8 +9,8 @@ use std::f64::consts::PI;
 
 use api::problem::Fault;
 use api::spec::{Spec, WearLaw};
-use solver::effects::Effect;
-use solver::model::unworn_contact;
+use solver::closed_form::unworn_contact;
+use solver::scene::Effect;
 use solver::scene::{Dimension, Scene};
 use solver::sides::Side;
 

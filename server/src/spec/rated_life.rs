@@ -2,13 +2,13 @@
 //! rated for.
 //!
 //! In a mating the contact passes the wipe in and out again, so that it is a cycle of half of the wipe as amplitude, and the closed
-//! forms of `solver::model::expected_life` hold: a pad of layers of the thicknesses t_i and the specific wear rates k_i lasts
+//! forms of `solver::closed_form::expected_life` hold: a pad of layers of the thicknesses t_i and the specific wear rates k_i lasts
 //! N = sum t_i/(2 k_i P') matings, the tip, which rubs in all of the wipe, far fewer.
 
 use api::problem::Fault;
 use api::spec::{Motion, Provenance, SystemKind};
+use solver::closed_form::expected_life;
 use solver::law::plating::bottoms;
-use solver::model::expected_life;
 use solver::scene::{self, Criterion, Scene};
 use solver::sides::Side;
 

@@ -11,6 +11,7 @@ use uuid::Uuid;
 
 use crate::objects::ObjectsError;
 use crate::solve::checkpoint::EncodedCheckpoint;
+use crate::store::checkpoint_object::CheckpointObject;
 use crate::store::{Lease, Store, StoreError, integrity};
 
 /// Smallest state in an object, bytes: below, a request to a bucket costs more than a row. Arbitrary.
@@ -19,18 +20,6 @@ const SMALLEST: usize = 64 << 10;
 const LONGEST: Duration = Duration::from_secs(3);
 /// Longest time for reading one.
 const LONGEST_READ: Duration = Duration::from_secs(30);
-/// An object that no update has named for as long is removed, ms. Its update is refused before.
-pub(in crate::store) const REMOVED_AFTER_MS: i64 = 15 * 60 * 1000;
-/// Longest time between the note of an object and the update that names it, ms.
-pub(in crate::store) const NAMED_WITHIN_MS: i64 = 10 * 60 * 1000;
-
-/// A checkpoint in an object.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(in crate::store) struct CheckpointObject {
-    pub(in crate::store) cycle: u64,
-    pub(in crate::store) sha256: Vec<u8>,
-    pub(in crate::store) key: String,
-}
 
 impl Store {
     /// Writes the state of a checkpoint to an object; its key, or `None` if the database is to have it.

@@ -11,9 +11,9 @@ use std::time::Duration;
 use tempfile::TempPath;
 use tokio::sync::SemaphorePermit;
 use tokio::time::timeout;
-use uuid::Uuid;
 
 use crate::objects::{ObjectFile, Objects, ObjectsError, Source};
+use crate::store::file_key;
 use crate::store::local::FILE_WRITES_MB;
 use crate::store::{JobUpdate, Lease, LeaseState, NewContent, NewFile, Store, StoreError};
 
@@ -36,15 +36,6 @@ const LARGEST: u64 = 64 << 20;
 const LARGEST_MB: u32 = 65;
 /// Longest time for an object of a larger one.
 const LONGEST_OF_LARGE: Duration = Duration::from_mins(10);
-/// What keys begin with.
-const PREFIX: &str = "files/";
-
-/// Whether a key is that of a file of a job.
-pub(in crate::store) fn is_of_job(key: &str, job: Uuid) -> bool {
-    let name = key.strip_prefix(PREFIX);
-    let name = name.and_then(|name| name.strip_prefix(&job.to_string()));
-    name.is_some_and(|name| name.starts_with('/'))
-}
 
 /// Longest time for an object of so many bytes.
 fn longest(bytes: u64) -> Duration {
@@ -99,7 +90,7 @@ impl Store {
         let objects = self.objects_of_files().ok_or(StoreError::NoObjects)?;
         self.disk().check()?;
         let Lease { job, number } = lease;
-        let key = format!("{PREFIX}{job}/{number}/{}", Uuid::now_v7());
+        let key = file_key::new(job, number);
         self.note_object(&key).await?;
         let (content, _memory) = match self.put_in_time(objects, &key, file).await {
             Ok(()) => (None, None),

@@ -9,11 +9,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use api::job::Status;
-use reqwest::Url;
 use uuid::Uuid;
 
 use crate::clock::Clock;
 use crate::metrics::Metrics;
+use crate::store::address::is_postgres;
 use crate::store::local::Local;
 use crate::store::postgres::PostgresStore;
 use crate::store::sqlite::SqliteStore;
@@ -242,26 +242,4 @@ impl Store {
             Engine::Postgres(store) => &mut store.local,
         }
     }
-}
-
-/// The address of a database as it may be shown, without a password.
-pub fn shown_address(url: &str) -> String {
-    let shown = |mut url: Url| {
-        // Fails for addresses without host, which have no password.
-        let _ = url.set_password(None);
-        url.set_query(None);
-        url.to_string()
-    };
-    match url.split_once(':') {
-        Some((scheme, _)) if scheme != "sqlite" => {
-            Url::parse(url).map_or_else(|_| format!("{scheme}:.."), shown)
-        }
-        _ => url.to_owned(),
-    }
-}
-
-/// Whether an address is that of a PostgreSQL database.
-pub(in crate::store) fn is_postgres(url: &str) -> bool {
-    let scheme = url.split_once(':').map_or("", |(scheme, _)| scheme);
-    scheme.eq_ignore_ascii_case("postgres") || scheme.eq_ignore_ascii_case("postgresql")
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::objects::Objects;
-use crate::store::operations::is_postgres;
+use crate::store::address::is_postgres;
 use crate::store::{BackupError, CopySummary, postgres, sqlite};
 
 /// Reads the database at `url`, which may be in use, and all results, and compares every checksum. Marks in the manifests which files are damaged,

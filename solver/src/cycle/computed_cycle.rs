@@ -2,10 +2,10 @@
 
 use super::extrapolation::loss_of_load;
 use super::{CycleError, CycleRecord, CycleState, Integrator};
+use crate::closed_form::unworn_contact::radius;
 use crate::law::elastic::contact_modulus;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
-use crate::model::unworn_contact::radius;
 use crate::number::real_cycles;
 use crate::schedule::equivalent_wear::EquivalentWear;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};

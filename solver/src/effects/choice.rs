@@ -2,11 +2,11 @@
 
 use super::decision::{Decision, Indicator, Verdict};
 use super::dimension::can_simulate;
-use super::effect::Effect;
 use super::indicators::Indicators;
 use super::plasticity::Yield;
 use super::reason::{Grounds, reason};
 use super::small_strain;
+use crate::scene::Effect;
 
 use crate::law::surface::SurfaceWear;
 use crate::scene::{Body, Conduction, Scene, Softening, SurfaceEffects, WearLaw};

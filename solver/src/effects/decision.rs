@@ -1,6 +1,6 @@
 //! The decision about an effect.
 
-use super::effect::Effect;
+use crate::scene::Effect;
 use serde::{Deserialize, Serialize};
 
 /// Decision about one effect.

@@ -1,7 +1,7 @@
 //! What depends on the dimension of a scene: indicators that differ from those of a section, and the effects that can be simulated.
 
-use super::effect::Effect;
 use super::{line, point};
+use crate::scene::Effect;
 use crate::scene::{Dimension, Scene};
 
 /// The indicator of an effect where it differs from that of a section.

@@ -10,9 +10,9 @@
 //!
 //! a, c: Hertz' half-lengths along and across the sliding direction.
 
-use crate::model::expected_wear::{expected_cycles, worn_depth_after};
-use crate::model::unworn_contact::hertz_half_width;
-use crate::point::half_lengths_mm;
+use crate::closed_form::expected_wear::{expected_cycles, worn_depth_after};
+use crate::closed_form::half_lengths_mm;
+use crate::closed_form::unworn_contact::hertz_half_width;
 use crate::scene::Scene;
 
 /// Largest height that recedes over the worn depth and the tolerance.

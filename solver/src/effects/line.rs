@@ -1,6 +1,6 @@
 //! Effects that a contact along a line can be simulated with: all of it slips, and nothing heats it.
 
-use super::effect::Effect;
+use crate::scene::Effect;
 
 /// Whether an effect can be simulated along a line.
 pub(super) fn can_simulate(effect: Effect) -> bool {

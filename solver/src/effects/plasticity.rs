@@ -12,9 +12,9 @@
 //! Layers carry a contact of the half-width a that is small against their thickness, and bases one that is large: the hardness of what lies
 //! above a depth t counts with the share ln(10 t/a)/ln 10, from 0 at t = a/10 to 1 at t = a. Assumed.
 
+use crate::closed_form::unworn_contact;
+use crate::closed_form::{PointScene, SlipRegime};
 use crate::law::plating::{Layer, bottoms};
-use crate::model::unworn_contact;
-use crate::point::{PointScene, SlipRegime};
 use crate::scene::{Scene, Softening};
 use crate::sides::{Side, Sides};
 

@@ -4,9 +4,9 @@
 //! Deresiewicz (1953) at the onset A_c of gross slip has a sixth of (9/10) (2 - nu) (mu F)^2/(G a), a tenth of the 4 mu F A_c that a
 //! rigid contact has, so that 0.9 A_c of each amplitude A are lost.
 
-use super::effect::Effect;
+use crate::closed_form::{PointScene, SlipRegime};
 use crate::law::elastic::dundurs_beta;
-use crate::point::{PointScene, SlipRegime};
+use crate::scene::Effect;
 use crate::scene::Scene;
 
 /// Part of the displacement at the onset of gross slip that is lost at each reversal.

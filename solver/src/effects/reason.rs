@@ -2,9 +2,9 @@
 
 use super::decision::{Indicator, Verdict};
 use super::dimension::can_simulate;
-use super::effect::Effect;
 use super::indicators::Indicators;
 use super::plasticity::Yield;
+use crate::scene::Effect;
 
 use crate::law::elastic::contact_modulus;
 use crate::scene::{Dimension, Scene};

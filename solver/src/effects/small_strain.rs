@@ -1,7 +1,7 @@
 //! Error of small-strain elasticity.
 
+use crate::closed_form::unworn_contact;
 use crate::law::elastic::contact_modulus;
-use crate::model::unworn_contact;
 use crate::scene::{Dimension, Scene};
 
 /// Largest accepted error of small-strain elasticity, relative to peak pressure and half-width.

@@ -1,10 +1,10 @@
 //! What a run of extruded bodies is computed from.
 
 use super::error::ExtrudedError;
-use crate::effects::Effect;
+use crate::closed_form::unworn_contact;
 use crate::mesh::NodePlanes;
-use crate::model::unworn_contact;
 use crate::number::real;
+use crate::scene::Effect;
 use crate::scene::{Dimension, Ends, Friction, Motion, Scene};
 use crate::sides::{Side, Sides};
 

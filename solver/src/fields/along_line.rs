@@ -14,10 +14,10 @@ use rayon::iter::{
     IndexedParallelIterator, IntoParallelRefIterator, IntoParallelRefMutIterator, ParallelIterator,
 };
 
+use super::FieldsError;
 use super::common_mesh::CommonMesh;
 use super::tractions::{SurfaceFields, SurfaceNodes, carried, slip_sign};
 use super::{BodyFields, Stress, antiplane, recover};
-use crate::SolveError;
 use crate::ale;
 use crate::along_line::Along;
 use crate::condensation::{Antiplane, Condensed, OperatorError};
@@ -84,12 +84,12 @@ type Factored = Sides<BTreeMap<usize, Antiplane>>;
 /// Fields along a line at the named positions, sections in the threads that the caller is one of. `slides` where the contact has slid already.
 ///
 /// # Errors
-/// [`SolveError`] if a present surface would invert an element, or a mesh cannot be factored.
+/// [`FieldsError`] if a present surface would invert an element, or a mesh cannot be factored.
 pub(crate) fn along_line(
     shape: LineShape,
     sections: &[SectionState<'_>],
     slides: bool,
-) -> Result<Vec<LineFields>, SolveError> {
+) -> Result<Vec<LineFields>, FieldsError> {
     let Some(first) = sections.first() else {
         return Ok(Vec::new());
     };
@@ -155,7 +155,7 @@ impl<'a> Placed<'a> {
         &self,
         side: Side,
         factored: &mut Factored,
-    ) -> Result<(Vec<[f64; 3]>, Vec<Stress>), SolveError> {
+    ) -> Result<(Vec<[f64; 3]>, Vec<Stress>), FieldsError> {
         let SectionState {
             model, condensed, ..
         } = *self.section;
@@ -219,7 +219,7 @@ fn swept(
     side: Side,
     placed: &[Placed<'_>],
     factored: &mut [Factored],
-) -> Result<SweptFields, SolveError> {
+) -> Result<SweptFields, FieldsError> {
     let body = placed[0].body(side);
     let common = CommonMesh::of(body, placed.iter().map(|placed| placed.zone(side)));
     let on_surface = SurfaceNodes::of(&common.mesh, common.spines(), body.layout.contact);
@@ -248,7 +248,7 @@ fn swept(
                 .collect(),
         })
     };
-    let sections: Vec<Result<_, SolveError>> = if rayon::current_thread_index().is_none() {
+    let sections: Vec<Result<_, FieldsError>> = if rayon::current_thread_index().is_none() {
         // One after the other, without a pool.
         placed.iter().zip(factored).map(section).collect()
     } else {

@@ -8,10 +8,10 @@
 
 use std::ops::Range;
 
+use super::FieldsError;
 use super::along_line::{LineFields, SectionFields, SweptFields};
 use super::tractions::{SurfaceFields, SurfaceNodes, carried};
 use super::{Stress, prisms};
-use crate::SolveError;
 use crate::ale;
 use crate::along_line::Along;
 use crate::condensation::{ExtrudedOperators, OperatorError, PrismInterior};
@@ -40,8 +40,8 @@ pub(crate) struct ExtrudedSections<'a> {
 /// Fields of extruded bodies at the named positions.
 ///
 /// # Errors
-/// [`SolveError`] if a present surface would invert an element, or a mesh cannot be factored.
-pub(crate) fn extruded(bodies: &ExtrudedSections<'_>) -> Result<Vec<LineFields>, SolveError> {
+/// [`FieldsError`] if a present surface would invert an element, or a mesh cannot be factored.
+pub(crate) fn extruded(bodies: &ExtrudedSections<'_>) -> Result<Vec<LineFields>, FieldsError> {
     let carried: Vec<Vec<Sides<Vec<SurfaceFields>>>> = bodies
         .contacts
         .iter()
@@ -89,7 +89,7 @@ impl ExtrudedSections<'_> {
         &self,
         side: Side,
         carried: &[Vec<Sides<Vec<SurfaceFields>>>],
-    ) -> Result<Vec<SweptFields>, SolveError> {
+    ) -> Result<Vec<SweptFields>, FieldsError> {
         let contacts = self.contacts.iter().map(|(_, contacts)| contacts);
         let zones: Vec<usize> = contacts.map(|contacts| self.zone(side, contacts)).collect();
         let mut fields: Vec<(usize, SweptFields)> = Vec::new();
@@ -150,7 +150,7 @@ impl<'a> InteriorOfZone<'a> {
         &self,
         contacts: &[ContactState],
         carried: &[Sides<Vec<SurfaceFields>>],
-    ) -> Result<SweptFields, SolveError> {
+    ) -> Result<SweptFields, FieldsError> {
         let (displacement, stress) = self.deformed(contacts);
         let zone = self.zone(0);
         let on_surface =
@@ -188,7 +188,7 @@ impl<'a> InteriorOfZone<'a> {
                 carried: on_surface.contact.iter().map(|&i| carried[i]).collect(),
             })
         };
-        let sections: Result<_, SolveError> = (0..contacts.len()).rev().map(section).collect();
+        let sections: Result<_, FieldsError> = (0..contacts.len()).rev().map(section).collect();
         Ok(SweptFields {
             cells: zone.mesh.cells(),
             sections: sections?,

@@ -2,7 +2,8 @@
 
 use super::surrogate::Scar;
 use crate::ale;
-use crate::model::{Layout, unworn_contact};
+use crate::closed_form::unworn_contact;
+use crate::model::Layout;
 use crate::number::real_cycles;
 use crate::scene::{Motion, Scene};
 use crate::schedule::jump::JumpControl;

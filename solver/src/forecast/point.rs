@@ -5,12 +5,14 @@
 //! by short strokes alone. The wear per cycle changes by the part 1 - b_0 c_0/(b_1 c_1) of it, of which the run's estimate is a share.
 
 use super::course::Course;
-use crate::effects::{self, Effect};
+use crate::closed_form::expected_wear::{expected_cycles, worn_depth_after};
+use crate::closed_form::{PointScene, SlipRegime};
+use crate::effects;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
-use crate::model::expected_wear::{expected_cycles, worn_depth_after};
 use crate::number::{count_at_least, real, real_cycles};
-use crate::point::{JumpControl, PointScene, SlipRegime};
+use crate::point::JumpControl;
+use crate::scene::Effect;
 use crate::scene::Scene;
 use crate::sides::{Side, Sides};
 
@@ -42,7 +44,7 @@ const ITERATIONS: f64 = 5.0;
 /// Solves of a cycle in which a part sticks, and iterations of each with its stick and slip.
 const STICKING_SOLVES: usize = 4;
 const STICKING_ITERATIONS: f64 = 150.0;
-/// Decay with A/a of the groove that is followed along, as of sections (`model::expected_life`).
+/// Decay with A/a of the groove that is followed along, as of sections (`closed_form::expected_life`).
 const SHARED_DEPTH: f64 = 2.3;
 /// Solves of an increment through layers.
 const REPETITIONS: f64 = 2.5;

@@ -3,11 +3,12 @@
 //! In gross sliding a worn slider carries a flat of half-width b_s = (3 R W_s / 2)^(1/3), its worn area W_s cut off its
 //! arc, and the contact is at least as wide; in a shorter stroke both sides share one scar.
 
+use crate::closed_form::{expected_wear, unworn_contact};
 use crate::contact::line::CANDIDATE_GAP;
 use crate::law::elastic::contact_modulus;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
-use crate::model::{Layout, expected_wear, unworn_contact};
+use crate::model::Layout;
 use crate::number::{real, real_cycles};
 use crate::record::{Exposed, WornSurface};
 use crate::scene::{Motion, Scene, Tuning};

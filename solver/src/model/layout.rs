@@ -4,11 +4,11 @@
 //! surface positions follow from one dimension.
 
 use super::profile::Profile;
-use super::resolution::{self, Sizes};
 use super::zones::{self, Zone, ZoneSizes};
 use crate::mesh::columns::is_tip;
 use crate::mesh::{MeshError, grading};
 use crate::number::count_at_least;
+use crate::resolution::{self, Sizes};
 use crate::scene::Scene;
 use crate::sides::{Side, Sides};
 

@@ -1,6 +1,6 @@
 use super::*;
-use crate::effects::Switches;
 use crate::scene::Dimension;
+use crate::scene::Switches;
 use crate::scene::{
     Accuracy, BlockShape, Body, Conduction, Criterion, Friction, Motion, Output, SliderShape,
     Softening, Timing, WearLaw,

@@ -1,15 +1,16 @@
 //! Computed cycles of a point contact: each stands for a jump, whose wear both of its passes do at once.
 
+use super::check;
 use super::error::PointError;
 use super::jump::{JumpControl, jump_error, rejected, share_in_wear};
 use super::placed::Placed;
 use super::point_state::PointState;
 use super::record::PointCycle;
-use super::scene::{PointScene, SlipRegime};
 use super::sliding::Sliding;
 use super::state::State;
 use super::surface::{Surface, WearSums};
 use super::window;
+use crate::closed_form::{PointScene, SlipRegime};
 use crate::law::surface::SurfaceWear;
 use crate::number::real_cycles;
 use crate::sides::{Side, Sides};
@@ -30,7 +31,7 @@ impl PointIntegrator {
     /// # Errors
     /// A scene that is no point contact, a contact without a solution.
     pub(crate) fn start(scene: &PointScene) -> Result<(Self, PointState), PointError> {
-        scene.check()?;
+        check::check(scene)?;
         let mut state = State::unworn(scene);
         let mut sliding = Sliding::new(scene, &state);
         sliding.load(&mut state)?;

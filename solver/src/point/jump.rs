@@ -15,8 +15,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::scene::PointAccuracy;
 use super::surface::WearSums;
+use crate::closed_form::PointAccuracy;
 use crate::number::{cycles_at_least, real_cycles};
 
 /// Largest step over indentation of a jump from a tolerance of 2 % on; below, it falls with the root of the tolerance. A sphere on a flat

@@ -9,7 +9,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::field::Axis;
-use super::scene::{PointScene, SlipRegime};
+use crate::closed_form::{PointScene, SlipRegime};
 use crate::contact::area::Cells;
 use crate::number::{count_at_least, nearest, real};
 use crate::sides::Side;

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::scene::{PointScene, SlipRegime};
 use super::section::{half_lengths, section, section_integral};
 use super::state::State;
+use crate::closed_form::{PointScene, SlipRegime};
 use crate::contact::area::Cells;
 use crate::sides::Sides;
 

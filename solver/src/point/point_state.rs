@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::jump::JumpControl;
 use super::placed::Placed;
 use super::record::{DepthMap, PointCycle};
-use super::scene::PointScene;
 use super::state::State;
+use crate::closed_form::PointScene;
 use crate::number::real_cycles;
 use crate::sides::{Side, Sides};
 

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::error::PointError;
 use super::integrator::PointIntegrator;
 use super::record::{PointCycle, PointOutcome, PointSummary};
-use super::scene::PointScene;
+use crate::closed_form::PointScene;
 use crate::sides::Sides;
 
 /// Simulates a point contact. Its cycles are delivered as they are computed; `Break` ends the run after that cycle.

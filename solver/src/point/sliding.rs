@@ -11,12 +11,12 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 use super::error::PointError;
-use super::scene::PointScene;
 use super::section::{half_lengths, section_integral};
 use super::spring;
 use super::state::State;
 use super::stick::StickSlip;
 use super::window::widen;
+use crate::closed_form::PointScene;
 use crate::contact::area::{AreaError, NormalContact, NormalProblem};
 use crate::number::{nearest, real};
 use crate::sides::{Side, Sides};
@@ -249,7 +249,7 @@ impl Sliding {
             .scene
             .bodies
             .as_ref()
-            .map(super::scene::PointBody::curvature);
+            .map(crate::closed_form::PointBody::curvature);
         let offsets = Sides::from_fn(|side| lattice.offset_mm(side, position));
         self.gap = lattice.cells().map(|x, z| {
             let height = |side| {

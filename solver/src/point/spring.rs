@@ -3,9 +3,9 @@
 //! The contact gives way to a change of the load by its own stiffness, 2 E* sqrt(a b), so that the change converges for a spring that is
 //! stiffer, too: dF (1 + k/(2 E* sqrt(a b))) = F_0 - k (delta - delta_0) - F. Limiting case: a dead load.
 
-use super::scene::PointScene;
 use super::section::half_lengths;
 use super::state::State;
+use crate::closed_form::PointScene;
 
 /// Smallest part of the load that a spring keeps: a contact without load has no solution.
 const LEAST_LOAD: f64 = 1e-4;

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::field::{Axis, Field};
 use super::lattice::Lattice;
-use super::scene::PointScene;
 use super::surface::Surface;
+use crate::closed_form::PointScene;
 use crate::sides::{Side, Sides};
 
 /// State between increments.

@@ -2,8 +2,8 @@
 //! each cell, by the bounds mu p under the pressure before the increment.
 
 use super::error::PointError;
-use super::scene::PointScene;
 use super::state::State;
+use crate::closed_form::PointScene;
 use crate::contact::area::{SHEAR_TOLERANCE, Shear, ShearCompliance, TangentialContact};
 
 /// Shear below its bound, over the largest bound, from which on a place sticks: what the iteration leaves of its slip would wear it in the

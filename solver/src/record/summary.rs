@@ -4,8 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::Work;
 use crate::cycle::{BlockWear, Checks, CycleState};
-use crate::effects::{Crossing, Effect, Verdict};
+use crate::effects::{Crossing, Verdict};
 use crate::record::{Compared, CycleReport, Errors, Life};
+use crate::scene::Effect;
 use crate::schedule::stops::Outcome;
 use crate::sides::Sides;
 

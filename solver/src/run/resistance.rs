@@ -3,11 +3,12 @@
 use crate::checkpoint::SectionRun;
 use crate::condensation::Condensed;
 use crate::cycle::CycleState;
-use crate::effects::{Crossing, Effect, EffectsPlan};
+use crate::effects::{Crossing, EffectsPlan};
 use crate::electrical::{ElectricalChange, ElectricalState, Evaluation, Touching};
 use crate::model::Model;
 use crate::record::{CycleRange, Life, unreached};
 use crate::run::computed::{Computed, UNLIMITED};
+use crate::scene::Effect;
 use crate::scene::Scene;
 use crate::schedule::stops;
 use crate::sides::Sides;

@@ -1,9 +1,9 @@
 //! A run that calls for an effect which its plan has skipped.
 
 use super::*;
-use crate::effects::{Effect, Switches};
 use crate::model::tests::fuzz_button;
 use crate::scene::{BlockShape, Friction, Motion, SliderShape, WearLaw};
+use crate::scene::{Effect, Switches};
 
 /// Records the cycles of reports, the checkpoints and the reasons of restarts.
 #[derive(Default)]

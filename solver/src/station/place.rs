@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::spacing;
 use crate::along_line::Along;
-use crate::model::line_contact::Touch;
+use crate::closed_form::line_contact::Touch;
 use crate::number::real;
 use crate::scene::{LineShape, RingMotion};
 
@@ -163,7 +163,7 @@ impl Place {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::line_contact::touch;
+    use crate::closed_form::line_contact::touch;
 
     fn placed(line: LineShape, stations: usize) -> Vec<Place> {
         places(line, stations, (touch(line, 0.1, 1e5), 4))

@@ -3,11 +3,11 @@
 use super::error::StationError;
 use super::place::places;
 use super::spacing;
-use crate::effects::Effect;
+use crate::closed_form::line_contact::{Touch, touch};
+use crate::closed_form::unworn_contact;
 use crate::law::elastic::contact_modulus;
-use crate::model::line_contact::{Touch, touch};
-use crate::model::unworn_contact;
 use crate::number::{nearest, real};
+use crate::scene::Effect;
 use crate::scene::{Accuracy, Dimension, Drive, Friction, Line, LineShape, Motion, Scene, Top};
 use crate::sides::Side;
 

@@ -5,9 +5,9 @@ use std::time::Instant;
 
 use super::{TWO, button};
 use crate::recorder::solve;
-use solver::effects::{Effect, Switches};
 use solver::extruded::run;
 use solver::scene::{Accuracy, Ends};
+use solver::scene::{Effect, Switches};
 
 /// The figures of the README: the thesis' free model over 2 000 cycles, and the plane contact, one after the other.
 #[test]

@@ -4,8 +4,8 @@ use super::{TWO, button, difference, loaded, loaded_plane, over_plane, solved};
 use crate::recorder::solve;
 use crate::scenes::{COPPER_WEAR, mccoll};
 use crate::verify_plating::layer;
-use solver::effects::{Effect, Switches};
 use solver::scene::{Accuracy, Drive, Ends, Friction, Scene, WearLaw};
+use solver::scene::{Effect, Switches};
 use solver::sides::Sides;
 
 /// The unworn contact, node by node: round-off of another factorisation and of converged gaps, 1e-9 of the peak pressure and of the approach.

@@ -3,9 +3,9 @@
 
 use super::runs::extruded;
 use crate::recorder::solve;
-use solver::effects::Effect;
 use solver::fields::{BodyFields, LineFields, SectionFields, SweptFields};
 use solver::record::{Position, Snapshot};
+use solver::scene::Effect;
 use solver::scene::{Dimension, Drive, Ends, Friction, Scene};
 use solver::sides::Side;
 

@@ -1,8 +1,8 @@
 //! Limiting cases: wide and thin bodies, scaled and swapped ones, scenes that are refused.
 
 use super::{TWO, button, difference, loaded, loaded_plane, over_plane, solved};
-use solver::effects::Effect;
 use solver::extruded::{ExtrudedError, ExtrudedScene, MOST_LAYERS, run};
+use solver::scene::Effect;
 use solver::scene::{Ends, Friction, Motion, WearLaw};
 use std::ops::ControlFlow;
 

@@ -5,7 +5,7 @@ use crate::recorder::{check_stated_error, solve};
 use crate::scenes::fuzz_button;
 use crate::verify_plating::layer;
 use crate::verify_resume::resumes_to_the_same_bits;
-use solver::effects::Effect;
+use solver::scene::Effect;
 use solver::scene::{Accuracy, Criterion, Dimension, Ends, Extruded, Scene, WearLaw};
 use solver::sides::Side;
 

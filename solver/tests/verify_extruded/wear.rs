@@ -3,10 +3,10 @@
 use super::{TWO, WIDTH, button, difference, solved};
 use crate::recorder::solve;
 use crate::scenes::{COPPER_WEAR, groove, pin, scar, sprung_contact};
-use solver::effects::{Effect, Switches};
 use solver::extruded::{ExtrudedOutcome, ExtrudedScene, ExtrudedSummary};
 use solver::interpolation;
 use solver::scene::{Accuracy, Drive, Ends, Friction, Motion, WearLaw};
+use solver::scene::{Effect, Switches};
 use solver::sides::{Side, Sides};
 
 fn wear(factor: f64) -> Option<WearLaw> {

@@ -8,12 +8,12 @@ use super::{
 };
 use crate::recorder::{largest_distance, solve};
 use crate::verify_resume::resumes_to_the_same_bits;
-use solver::effects::{Effect, Switches};
 use solver::law::temperature::Temperature;
 use solver::scene::{
     Accuracy, Mechanism, MildOxidation, Motion, Quinn, Scene, Series, SevereOxidation, SpeedLaw,
     SurfaceState, Term, Timing, WearLaw,
 };
+use solver::scene::{Effect, Switches};
 use solver::sides::{Side, Sides};
 
 /// Mean speed of a stroke of 0.1 mm in a second, mm/s.

@@ -1,32 +1,60 @@
-//! Import cycles between the files of a crate: strongly connected components of their graph.
+//! Import cycles between the files of a crate, and between the folders: strongly connected components of their graphs.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::rules::Violation;
 use super::sources::{Sources, Target};
 
-const RULE: &str = "no two files need each other";
+/// Edge of a graph, and the first line that makes it.
+type Edges = BTreeMap<usize, BTreeMap<usize, String>>;
 
-/// Edge of the file graph, and the first line that makes it.
-type Edges = BTreeMap<usize, BTreeMap<usize, (usize, String)>>;
+/// One violation for each file of a circle of files, with the lines that tie it to the others.
+pub(super) fn between_files(sources: &Sources) -> Vec<Violation> {
+    let rule = "no two files need each other";
+    circles(rule, &sources.files, &edges(sources, Some))
+}
 
-/// One violation for each file of a strongly connected component, with the lines that tie it to the others.
-pub(super) fn violations(sources: &Sources) -> Vec<Violation> {
-    let edges = edges(sources);
+/// The same of folders and files that are side by side. A file and the folder of its name are one.
+pub(super) fn between_folders(sources: &Sources) -> Vec<Violation> {
     let mut found = Vec::new();
-    for component in components(sources.files.len(), &edges) {
-        for file in &component {
-            let from = &sources.files[*file];
-            let inside = edges.get(file).into_iter().flatten();
-            let lines: Vec<String> = inside
-                .filter(|(to, _)| component.contains(to))
-                .map(|(to, (line, name))| {
-                    format!("{from}:{line} names `{name}` of {}", sources.files[*to])
-                })
-                .collect();
+    let folders: BTreeSet<&str> = sources
+        .files
+        .iter()
+        .flat_map(|file| folders(file))
+        .collect();
+    for folder in folders {
+        let child = |file: &String| {
+            let name = file.strip_prefix(folder)?.strip_prefix('/')?;
+            let name = name.split_once('/').map_or(name, |(first, _)| first);
+            Some(format!("{folder}/{}", name.trim_end_matches(".rs")))
+        };
+        let names: Vec<String> = sources.files.iter().filter_map(child).collect();
+        let names: Vec<String> = BTreeSet::from_iter(names).into_iter().collect();
+        let node = |file: usize| {
+            let name = child(&sources.files[file])?;
+            names.iter().position(|known| *known == name)
+        };
+        let rule = "no two folders need each other";
+        found.extend(circles(rule, &names, &edges(sources, node)));
+    }
+    found
+}
+
+/// The folders of a file, from the outermost one on.
+fn folders(file: &str) -> impl Iterator<Item = &str> {
+    file.match_indices('/').map(|(end, _)| &file[..end])
+}
+
+fn circles(rule: &'static str, names: &[String], edges: &Edges) -> Vec<Violation> {
+    let mut found = Vec::new();
+    for component in components(names.len(), edges) {
+        for node in &component {
+            let inside = edges.get(node).into_iter().flatten();
+            let inside = inside.filter(|(to, _)| component.contains(to));
+            let lines: Vec<String> = inside.map(|(_, line)| line.clone()).collect();
             found.extend((!lines.is_empty()).then(|| Violation {
-                rule: RULE,
-                what: from.clone(),
+                rule,
+                what: names[*node].clone(),
                 lines,
             }));
         }
@@ -34,15 +62,22 @@ pub(super) fn violations(sources: &Sources) -> Vec<Violation> {
     found
 }
 
-fn edges(sources: &Sources) -> Edges {
+/// Edges between the nodes that files belong to.
+fn edges(sources: &Sources, node: impl Fn(usize) -> Option<usize>) -> Edges {
     let mut edges = Edges::new();
     for reference in &sources.references {
         if let Target::Item(file, name) = &reference.target
-            && *file != reference.file
+            && let (Some(from), Some(to)) = (node(reference.file), node(*file))
+            && from != to
         {
-            let from = edges.entry(reference.file).or_default();
-            from.entry(*file)
-                .or_insert_with(|| (reference.line, name.clone()));
+            let (at, line) = (&sources.files[reference.file], reference.line);
+            let of = &sources.files[*file];
+            let line = || format!("{at}:{line} names `{name}` of {of}");
+            edges
+                .entry(from)
+                .or_default()
+                .entry(to)
+                .or_insert_with(line);
         }
     }
     edges

@@ -93,7 +93,7 @@ fn paths_into_other_crates_are_expanded_and_texts_are_found() {
 
 #[test]
 fn a_cycle_is_reported_with_the_lines_that_make_it() {
-    let found = cycles::violations(&read());
+    let found = cycles::between_files(&read());
     let lines: Vec<&str> = found
         .iter()
         .flat_map(|v| v.lines.iter().map(String::as_str))

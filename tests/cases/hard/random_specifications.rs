@@ -14,10 +14,10 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use serde_json::Value;
 use server::spec::{self, Refused};
 use solver::SolveError;
+use solver::closed_form;
 use solver::cycle::CycleError;
-use solver::effects::Effect;
 use solver::model::{self, Model};
-use solver::point;
+use solver::scene::Effect;
 use solver::scene::{Dimension, Scene};
 use solver::station::StationScene;
 
@@ -86,7 +86,7 @@ fn is_cheap_across(scene: &Scene) -> bool {
     match scene.dimension {
         Dimension::PlaneStrain => is_cheap_section(scene),
         Dimension::Point(_) => {
-            let (along, across) = point::half_lengths_mm(scene).expect("it is a point");
+            let (along, across) = closed_form::half_lengths_mm(scene).expect("it is a point");
             let sticks = solver::effects::plan(scene).simulates(Effect::StickMemory);
             let round = if sticks { 2.0 } else { 10.0 };
             (1.0 / round..round).contains(&(across / along)) && way(along) <= 10.0

@@ -1,7 +1,8 @@
 //! Conductors, spots, films and criteria of specifications.
 
-use solver::effects::{Effect, Verdict, plan};
+use solver::effects::{Verdict, plan};
 use solver::law::resistance::Deformation;
+use solver::scene::Effect;
 use solver::scene::{Electrical, Scene};
 
 use crate::spec::Resolved;

@@ -1,4 +1,5 @@
-use solver::effects::{Effect, Indicator, Verdict, plan};
+use solver::effects::{Indicator, Verdict, plan};
+use solver::scene::Effect;
 use solver::scene::{Scene, SpeedLaw, Temperature, WearLaw};
 
 use crate::spec::Resolved;

@@ -2,9 +2,9 @@
 
 use api::problem::Fault;
 use api::spec::{Dimension, Model, RingMotion, Spec, SystemKind, Top};
+use solver::closed_form::expected_wear::crown_half_lengths_mm;
+use solver::closed_form::unworn_contact::{hertz_half_width, largest_half_width};
 use solver::effects::extent::Extent;
-use solver::model::expected_wear::crown_half_lengths_mm;
-use solver::model::unworn_contact::{hertz_half_width, largest_half_width};
 use solver::scene::{self, Conduction, LineShape, Scene};
 use solver::station::{StationError, StationScene};
 

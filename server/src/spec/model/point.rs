@@ -2,9 +2,9 @@
 
 use api::problem::Fault;
 use api::spec::{LoadKind, Spec};
-use solver::model::expected_wear::worn_contact_half_length_mm;
-use solver::model::unworn_contact::hertz_half_width;
-use solver::point;
+use solver::closed_form;
+use solver::closed_form::expected_wear::worn_contact_half_length_mm;
+use solver::closed_form::unworn_contact::hertz_half_width;
 use solver::scene::{self, Conduction, Point, Scene};
 use solver::sides::Sides;
 
@@ -43,7 +43,7 @@ pub(super) fn with_dimension(
     });
     // Springs were resolved per unit of width.
     let spring_n_per_mm = scene.spring_n_per_mm2;
-    scene.load_n_per_mm = point::middle_line_load_n_per_mm(&scene);
+    scene.load_n_per_mm = closed_form::middle_line_load_n_per_mm(&scene);
     check_size(&scene, diagnostics);
     scene.spring_n_per_mm2 = spring_n_per_mm * scene.load_n_per_mm / force_n;
     if let Conduction::Known(electrical) = &mut scene.conduction {

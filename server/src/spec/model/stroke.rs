@@ -1,7 +1,7 @@
 //! A stroke that leaves the receptacle.
 
 use api::problem::Fault;
-use solver::model::unworn_contact;
+use solver::closed_form::unworn_contact;
 use solver::scene::{LineShape, Scene};
 
 /// Warnings of strokes at whose end the unworn contact hangs over the end of the receptacle, of the motion or of the blocks of a mission.

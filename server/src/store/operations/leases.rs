@@ -6,7 +6,7 @@ use api::job::Status;
 use uuid::Uuid;
 
 use crate::queue::Transition;
-use crate::store::checkpoints::CheckpointObject;
+use crate::store::checkpoint_object::CheckpointObject;
 use crate::store::operations::operations;
 use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, Reclaimed, StoreError};
 

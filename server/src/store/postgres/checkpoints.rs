@@ -9,7 +9,7 @@ use uuid::Uuid;
 use crate::clock::Now;
 use crate::objects::Objects;
 use crate::solve::checkpoint::EncodedCheckpoint;
-use crate::store::checkpoints::CheckpointObject;
+use crate::store::checkpoint_object::CheckpointObject;
 use crate::store::postgres::PostgresStore;
 use crate::store::rows::integer;
 use crate::store::{ClaimedCheckpoint, Lease, StoreError, integrity};

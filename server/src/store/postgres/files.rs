@@ -8,7 +8,7 @@ use uuid::Uuid;
 
 use crate::objects::Source;
 use crate::store::block::Block;
-use crate::store::file_objects::is_of_job;
+use crate::store::file_key::is_of_job;
 use crate::store::folder::Folder;
 use crate::store::postgres::blocks::entries;
 use crate::store::postgres::job_rows::lock;

@@ -5,7 +5,7 @@ use sqlx::postgres::PgConnection;
 use uuid::Uuid;
 
 use crate::store::StoreError;
-use crate::store::checkpoints::REMOVED_AFTER_MS;
+use crate::store::checkpoint_object::REMOVED_AFTER_MS;
 use crate::store::postgres::open::refuse_standby;
 use crate::store::postgres::{PostgresStore, begin};
 

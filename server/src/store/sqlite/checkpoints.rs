@@ -8,7 +8,7 @@ use uuid::Uuid;
 
 use crate::clock::{monotonic_ms, now_ms};
 use crate::solve::checkpoint::EncodedCheckpoint;
-use crate::store::checkpoints::{CheckpointObject, NAMED_WITHIN_MS};
+use crate::store::checkpoint_object::{CheckpointObject, NAMED_WITHIN_MS};
 use crate::store::rows::integer;
 use crate::store::sqlite::SqliteStore;
 use crate::store::{ClaimedCheckpoint, Lease, StoreError, integrity};

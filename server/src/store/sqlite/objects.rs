@@ -6,7 +6,7 @@ use uuid::fmt::Hyphenated;
 
 use crate::clock::monotonic_ms;
 use crate::store::StoreError;
-use crate::store::checkpoints::REMOVED_AFTER_MS;
+use crate::store::checkpoint_object::REMOVED_AFTER_MS;
 use crate::store::results_to_move::Moved;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::queries::BEGIN;

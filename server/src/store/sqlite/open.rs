@@ -10,9 +10,9 @@ use sqlx::sqlite::{
 use sqlx::{ConnectOptions, Connection};
 
 use crate::clock::Clock;
+use crate::store::address::{is_postgres, shown_address};
 use crate::store::folder::beside;
 use crate::store::local::Local;
-use crate::store::operations::{is_postgres, shown_address};
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::lock::lock;
 use crate::store::sqlite::migrations::migrator;

@@ -5,7 +5,7 @@ use sqlx::{Connection, PgConnection};
 use super::objects::{WithObjects, opened};
 use super::*;
 use crate::objects::Objects;
-use crate::store::checkpoints::CheckpointObject;
+use crate::store::checkpoint_object::CheckpointObject;
 
 on_both_engines! { WithObjects:
     a_large_checkpoint_is_an_object_which_the_next_attempt_asks_for,

@@ -4,7 +4,7 @@ use sqlx::{Connection, PgConnection, SqliteConnection};
 
 use super::batches::new_jobs;
 use super::*;
-use crate::store::operations::is_postgres;
+use crate::store::address::is_postgres;
 
 on_both_engines! { Fixture:
     a_job_and_a_batch_have_what_was_sent_until_they_are_deleted,

@@ -3,13 +3,13 @@ mod partial_slip;
 use std::f64::consts::PI;
 
 use super::*;
+use crate::closed_form::{PointAccuracy, PointBody, SlipRegime};
 use crate::law::elastic::Elastic;
 use crate::law::plating::Layer;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::WearLaw;
 use crate::number::real;
 use crate::number::real_cycles;
-use crate::point::scene::{PointAccuracy, PointBody, SlipRegime};
 use crate::point::sliding::Sliding;
 use crate::point::state::State;
 use crate::sides::Side;

@@ -60,7 +60,7 @@ impl Sections for ExtrudedIntegrator {
         };
         let (planes, models, operators) = self.condensed();
         let placed = self.placed();
-        fields::extruded(&ExtrudedSections {
+        Ok(fields::extruded(&ExtrudedSections {
             shape: *shape,
             planes,
             models,
@@ -68,7 +68,7 @@ impl Sections for ExtrudedIntegrator {
             at: last.stations.iter().map(|plane| plane.at).collect(),
             depths: self.depths().collect(),
             contacts: placed.collect(),
-        })
+        })?)
     }
 
     fn slave(&self) -> Side {

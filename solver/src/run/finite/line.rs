@@ -68,7 +68,7 @@ impl Sections for LineIntegrator {
                 }
             })
             .collect();
-        self.within(|| fields::along_line(line.shape, &sections, last.cycle > 0))
+        Ok(self.within(|| fields::along_line(line.shape, &sections, last.cycle > 0))?)
     }
 
     fn slave(&self) -> Side {

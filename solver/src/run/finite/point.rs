@@ -4,18 +4,18 @@
 use super::contact::Contact;
 use crate::SolveError;
 use crate::checkpoint::{PointRun, Resumable};
+use crate::closed_form::{PointScene, SlipRegime};
 use crate::contact::Work;
-use crate::effects::{Effect, EffectsPlan};
+use crate::effects::EffectsPlan;
 use crate::electrical::{AreaContact, ContactResistance};
 use crate::interpolation::part_way;
 use crate::number::count;
-use crate::point::{
-    DepthMap, Placed, PointError, PointIntegrator, PointScene, PointState, SlipRegime,
-};
+use crate::point::{DepthMap, Placed, PointError, PointIntegrator, PointState};
 use crate::record::{
     self, AreaMaps, Checks, CycleReport, DepthProfile, FrictionLoop, Outcome, PointEnd, Position,
     PressureMap, Resolution, Snapshot, TractionField, WornArea,
 };
+use crate::scene::Effect;
 use crate::scene::Scene;
 use crate::sides::{Side, Sides};
 

@@ -1,7 +1,7 @@
 //! Invariants of every run of a contact of finite extent: a list of its own, beside that of a section.
 
-use solver::effects::Effect;
 use solver::record::{Checks, CycleReport, Snapshot, TractionField};
+use solver::scene::Effect;
 use solver::scene::{Dimension, Scene};
 
 use super::{Run, not_finite, reason_without_numbers, taken_back, unsound_tractions};

@@ -1,11 +1,10 @@
 //! What a run of a point contact is computed from.
 
-use super::error::PointError;
 use super::hertz;
 use crate::law::elastic::{Elastic, Lame, contact_modulus};
 use crate::law::surface::SurfaceWear;
 use crate::scene::Scene;
-use crate::sides::{Side, Sides};
+use crate::sides::Sides;
 
 /// Largest amplitude over the half-length of a contact whose surfaces wear in place: what they are displaced over each other by is then
 /// small against the scar. Arbitrary.
@@ -135,7 +134,7 @@ impl PointAccuracy {
 
 impl PointBody {
     /// Curvatures along and across the sliding direction, 1/mm.
-    pub(super) fn curvature(&self) -> (f64, f64) {
+    pub(crate) fn curvature(&self) -> (f64, f64) {
         let curvature = |radius: Option<f64>| radius.map_or(0.0, |radius| 1.0 / radius);
         (
             curvature(self.radius_along_mm),
@@ -186,7 +185,7 @@ impl PointScene {
     }
 
     /// Sum of the curvatures of both bodies along and across the sliding direction, 1/mm.
-    pub(super) fn curvature(&self) -> (f64, f64) {
+    pub(crate) fn curvature(&self) -> (f64, f64) {
         let (slider, receptacle) = (
             self.bodies.slider.curvature(),
             self.bodies.receptacle.curvature(),
@@ -235,7 +234,7 @@ impl PointScene {
     }
 
     /// Part of the slider's displacement by which the contact travels over the receptacle.
-    pub(super) fn travel_over_receptacle(&self) -> f64 {
+    pub(crate) fn travel_over_receptacle(&self) -> f64 {
         self.bodies.slider.curvature().0 / self.curvature().0
     }
 
@@ -245,49 +244,10 @@ impl PointScene {
     }
 
     /// Largest amplitude in mm for which surfaces wear in place, if a part of the contact may stick.
-    fn largest_amplitude_mm(&self) -> f64 {
+    pub(crate) fn largest_amplitude_mm(&self) -> f64 {
         match self.slip {
             SlipRegime::Gross => f64::INFINITY,
             SlipRegime::Partial => LARGEST_PARTIAL * self.half_lengths_mm().0,
         }
-    }
-
-    /// Checks the scene.
-    ///
-    /// # Errors
-    /// A value outside of its range, a contact that is no point, a law that is none by dose.
-    pub(super) fn check(&self) -> Result<(), PointError> {
-        let (along, across) = self.curvature();
-        let positive = [
-            ("normal force in N", self.force_n),
-            ("curvature along the sliding direction in 1/mm", along),
-            ("curvature across the sliding direction in 1/mm", across),
-            ("contact modulus in MPa", self.modulus()),
-            ("tolerance", self.accuracy.tolerance),
-            (
-                "cells along a half-length",
-                self.accuracy.cells_per_half_length,
-            ),
-            ("step over half-length", self.accuracy.step_over_half_length),
-        ];
-        for (name, value) in positive {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(PointError::Value { name, value });
-            }
-        }
-        let (amplitude_mm, most_mm) = (self.amplitude_mm.abs(), self.largest_amplitude_mm());
-        if amplitude_mm.is_nan() || amplitude_mm > most_mm {
-            return Err(PointError::Amplitude {
-                amplitude_mm,
-                most_mm,
-            });
-        }
-        for side in Side::BOTH {
-            let wear = self.bodies.of(side).wear;
-            if wear.is_some_and(|wear| wear.dose_rate().is_none()) {
-                return Err(PointError::Law { side: side.name() });
-            }
-        }
-        Ok(())
     }
 }

@@ -5,9 +5,9 @@
 use std::f64::consts::PI;
 
 use super::line_contact;
-use crate::effects::Effect;
+use crate::closed_form::{PointScene, SlipRegime};
 use crate::law::elastic::contact_modulus;
-use crate::point::{PointScene, SlipRegime};
+use crate::scene::Effect;
 use crate::scene::{Drive, Elastic, Motion, Scene, SliderShape};
 
 /// Half-width of the unworn contact, mm: Hertz' of a section, the half-length along the sliding direction of a point contact.

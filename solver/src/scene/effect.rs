@@ -151,7 +151,7 @@ impl Effect {
 
     /// Whether its indicator, if it is skipped, counts as an error of what the tolerance bounds. Effects that are never
     /// simulated have limits of their own; layers that the wear does not reach change nothing.
-    pub(super) fn is_counted(self) -> bool {
+    pub(crate) fn is_counted(self) -> bool {
         self.is_available() && self != Self::Plating && !self.is_derived()
     }
 

@@ -8,9 +8,10 @@
 //! * flat of a slider in a long stroke: the circular segment that it has lost, by the same formula with W = k_s P s;
 //! * ends of the groove of a long stroke 2 A, W/(2 A) deep: the slider's arc reaches b = sqrt(R W / A) up them.
 
-use super::constraint_side;
-use super::expected_wear::{expected_cycles, wear_rates};
-use super::unworn_contact::{hertz_half_width, radius, sticks};
+mod constraint_side;
+
+use crate::closed_form::expected_wear::{expected_cycles, wear_rates};
+use crate::closed_form::unworn_contact::{hertz_half_width, radius, sticks};
 use crate::mesh::grading::Spacing;
 use crate::number::real_cycles;
 use crate::scene::{Accuracy, Refinement, Scene};

@@ -1,0 +1,15 @@
+//! The unworn contact, what a run wears of it, and its life, by closed forms: without a mesh.
+
+pub mod expected_life;
+pub mod expected_wear;
+mod hertz;
+pub mod line_contact;
+mod point_scene;
+pub mod unworn_contact;
+pub(crate) mod worn_cap;
+pub(crate) mod worn_depth;
+
+pub use point_scene::{
+    PointAccuracy, PointBody, PointScene, SlipRegime, cell_mm, half_lengths_mm,
+    middle_line_load_n_per_mm,
+};
