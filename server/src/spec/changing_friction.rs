@@ -1,12 +1,13 @@
 //! A coefficient of friction that changes: coefficients of the layers of platings, and what it does not go with.
 
 use api::problem::Fault;
-use api::spec::{DerivedMotion, EnumValue, MotionKind, Platings, Provenance, Spec, WearLawName};
+use api::spec::{DerivedMotion, EnumValue, MotionKind, Platings, Provenance, Spec};
 use solver::scene;
 use solver::sides::{Side, Sides};
 
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::environment;
+use crate::spec::law::properties::properties;
 use crate::spec::law::{Laws, friction_table};
 use crate::spec::plating;
 
@@ -49,7 +50,7 @@ pub(super) fn check(resolved: &Spec, friction: &scene::Friction, diagnostics: &m
             let Some(law) = law.and_then(|law| law.law.known()) else {
                 continue;
             };
-            if takes_friction(law) {
+            if properties(law).by_friction {
                 let detail = format!(
                     "`{}` takes one coefficient of friction, and that of this contact changes; write `archard`, or a constant coefficient",
                     law.as_str()
@@ -79,18 +80,6 @@ pub(super) fn warnings_of_derived_slip<'a>(
     derived
         .map(|(pointer, _)| Fault::new(pointer, detail.clone()))
         .collect()
-}
-
-/// Whether the rate of a wear law depends on the coefficient of friction.
-fn takes_friction(law: WearLawName) -> bool {
-    matches!(
-        law,
-        WearLawName::Sarkar
-            | WearLawName::Saracibar
-            | WearLawName::DissipatedEnergy
-            | WearLawName::SevereOxidation
-            | WearLawName::Oxidation
-    )
 }
 
 /// The friction with the coefficients of layers that have one: layers without one, and the bases, have that of the contact.

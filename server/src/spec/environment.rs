@@ -2,12 +2,13 @@
 
 use std::ops::RangeInclusive;
 
-use api::spec::{Environment, Material, MaterialProperties, Spec, WearLaw, WearLawName};
+use api::spec::{Environment, Material, MaterialProperties, Spec, WearLaw};
 use solver::law::softening::{REFERENCE_C, hardness_ratio};
 use solver::scene::{Conductor, Softening};
 use solver::sides::Sides;
 
 use crate::spec::diagnostics::Diagnostics;
+use crate::spec::law::properties;
 use crate::spec::materials;
 use crate::spec::plating;
 use crate::spec::sourced::assumed;
@@ -93,15 +94,9 @@ pub(super) fn softening(resolved: &Spec, diagnostics: &mut Diagnostics) -> Sides
 }
 
 fn wears_by_hardness(law: &WearLaw) -> bool {
-    !matches!(
-        law.law.known(),
-        Some(
-            WearLawName::DissipatedEnergy
-                | WearLawName::Rhee
-                | WearLawName::LoadRepetition
-                | WearLawName::StrainHardening
-        )
-    )
+    law.law
+        .known()
+        .is_none_or(|law| properties::properties(law).by_hardness)
 }
 
 fn properties(material: Option<&Material>) -> Option<&MaterialProperties> {

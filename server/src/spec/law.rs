@@ -13,6 +13,7 @@ mod numbers;
 mod oxidation;
 mod power;
 mod preset_friction;
+pub(super) mod properties;
 mod quinn;
 mod rhee;
 mod saracibar;
