@@ -2,7 +2,7 @@
 
 #![expect(
     clippy::print_stdout,
-    reason = "the suite prints the figures that the READMEs quote"
+    reason = "the suite prints the figures that the book quotes"
 )]
 
 mod converge_scars;

@@ -2,7 +2,7 @@
 //!
 //! Allowed: depth and worn area within the tolerance in every scene, and every error within its estimate in nine of ten.
 //! `FRETWEAR_DRAWS=100 FRETWEAR_REFERENCE_S=10 cargo test --release -p solver error_control -- --nocapture` takes the
-//! scenes of the table in `solver/README.md`, half an hour; by default they are shorter and a dozen, among them one in
+//! scenes of the table in `docs/evidence/verification.md`, half an hour; by default they are shorter and a dozen, among them one in
 //! partial slip, whose references take longest.
 
 use std::ops::ControlFlow;

@@ -1,7 +1,7 @@
-//! The architecture that the READMEs state: which crate, which folder and which file may depend on which.
+//! The architecture that docs/architecture.md states: which crate, which folder and which file may depend on which.
 //!
 //! The crates are compared with what cargo reports, the folders and files with what their sources name
-//! (`sources` says precisely what counts). Each rule is a sentence of a README; a test fails with that sentence and
+//! (`sources` says precisely what counts). Each rule is a sentence of that page; a test fails with that sentence and
 //! with the lines that contradict it.
 
 mod cycles;

@@ -66,7 +66,7 @@ async fn uninterrupted(specs: &[Value]) -> Vec<Value> {
 }
 
 /// Solves at least so many jobs, and injects every fault at least once.
-#[expect(clippy::print_stdout, reason = "the figures that the README quotes")]
+#[expect(clippy::print_stdout, reason = "the figures that the book quotes")]
 async fn chaos(engine: Engine, least_jobs: usize, seed: u64) {
     let began = Instant::now();
     let specs = specs();

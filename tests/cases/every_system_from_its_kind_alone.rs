@@ -1,5 +1,5 @@
 //! Requirement: each system solves from `{"system": {"kind": ..}}` alone to a plausible result; this case prints the
-//! README's table of systems.
+//! table of docs/guide/systems.md.
 
 use serde_json::{Value, json};
 use tests::fretwear;

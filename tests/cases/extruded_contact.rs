@@ -144,7 +144,7 @@ mod night {
     }
 }
 
-/// The table of the README: the spring of a memory card in all models, one after the other, for 2 000 cycles and until its gold is through.
+/// The table of `docs/guide/extruded.md`: the spring of a memory card in all models, one after the other, for 2 000 cycles and until its gold is through.
 fn springs_wear_alike_in_all_models() {
     let extruded =
         json!({"dimension": "extruded", "width_mm": 0.8, "layers": 4, "layer_growth": 3});

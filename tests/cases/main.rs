@@ -2,7 +2,7 @@
 
 #![expect(
     clippy::print_stdout,
-    reason = "some cases print the figures that the READMEs quote"
+    reason = "some cases print the figures that the book quotes"
 )]
 
 mod access_token;
@@ -13,6 +13,7 @@ mod architecture;
 mod auto_against_all_on;
 mod backup;
 mod bench;
+mod book;
 mod browser;
 mod calculix_agrees;
 mod cancel_running_job;
@@ -50,7 +51,6 @@ mod point_contact;
 mod postgresql;
 mod postgresql_tls;
 mod predicted_cost;
-mod readme_commands;
 mod refused_specifications;
 mod remote_workers;
 mod replayed_events;

@@ -2,7 +2,7 @@
 //!
 //! Requirement: `fretwear demo --exit` ends with 0 and a table of worn depth by cycle and station; where the contact
 //! is on the flat floor of the groove the depth grows by 2 (k/H) P' = 26.17 nm a cycle, and the worn area equals
-//! (k/H) times the accumulated integral of p |slip|. README.md shows lines of that table.
+//! (k/H) times the accumulated integral of p |slip|. docs/tutorial/demo.md shows lines of that table.
 
 use serde_json::Value;
 use tests::{Server, fretwear, spec};
@@ -29,7 +29,7 @@ fn table(text: &str, head: &str) -> Vec<Vec<String>> {
 }
 
 #[test]
-fn the_demo_solves_its_job_and_prints_the_table_of_the_readme() {
+fn the_demo_solves_its_job_and_prints_the_table_of_the_book() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let ran = fretwear(folder.path(), &["demo", "--exit"]);
     assert_eq!(ran.code, Some(0), "{}", ran.stderr);
@@ -45,8 +45,8 @@ fn the_demo_solves_its_job_and_prints_the_table_of_the_readme() {
         assert!(off.abs() < 0.01, "cycle {cycle}: {off}");
     }
 
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../README.md");
-    let readme = std::fs::read_to_string(path).expect("README.md can be read");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/tutorial/demo.md");
+    let readme = std::fs::read_to_string(path).expect("the page can be read");
     let told = table(&readme, "| cycle | x = ");
     assert!(told.len() > 3, "{told:?}");
     for (place, head) in told[0].iter().enumerate().skip(1) {

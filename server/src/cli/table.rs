@@ -92,7 +92,7 @@ fn growth(job: &Job, history: &WearHistory, rows: &[usize]) -> Option<String> {
     let found = slope(history, first, second)?;
     Some(format!(
         "On the flat floor, cycle {} to {}: {found:.3} nm a cycle in the middle; 2 (k/H) P' = {expected:.3} nm ({:+.2} %).\n\
-         Later the whole block wears, and its depth grows by worn area over length (solver/README.md).",
+         Later the whole block wears, and its depth grows by worn area over length (docs/theory/thesis.md).",
         history.cycle[first],
         history.cycle[second],
         100.0 * (found / expected - 1.0)

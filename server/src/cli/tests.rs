@@ -1,12 +1,10 @@
-//! Compares the tables of options in the README with the command line.
+//! Compares the tables of options in the book with the command line.
 
 use clap::{CommandFactory, Parser, ValueEnum};
 
 use crate::cli::Arguments;
 use crate::cli::arguments::ChildArguments;
 use crate::solve::protocol::COMMAND;
-
-const README: &str = include_str!("../../README.md");
 
 /// Option, variable and default of each option of a command, which may be one of another.
 fn options(names: &[&str]) -> Vec<[String; 3]> {
@@ -39,13 +37,18 @@ fn options(names: &[&str]) -> Vec<[String; 3]> {
 }
 
 #[test]
-fn the_readme_lists_every_option_with_its_variable_and_default() {
-    for (header, command) in [
-        ("| option |", &["serve"][..]),
-        ("| option of `work` |", &["work"]),
-        ("| option of `pilot slurm` |", &["pilot", "slurm"]),
+fn the_book_lists_every_option_with_its_variable_and_default() {
+    let [options_page, workers, slurm] = [
+        include_str!("../../../docs/operation/options.md"),
+        include_str!("../../../docs/operation/workers.md"),
+        include_str!("../../../docs/operation/slurm.md"),
+    ];
+    for (page, header, command) in [
+        (options_page, "| option |", &["serve"][..]),
+        (workers, "| option of `work` |", &["work"]),
+        (slurm, "| option of `pilot slurm` |", &["pilot", "slurm"]),
     ] {
-        let table = README.lines().skip_while(|line| !line.starts_with(header));
+        let table = page.lines().skip_while(|line| !line.starts_with(header));
         let table = table.take_while(|line| line.starts_with('|'));
         let mut rows: Vec<[String; 3]> = table
             .filter(|line| line.starts_with("| `--"))

@@ -9,7 +9,7 @@ use solver::extruded::run;
 use solver::scene::{Accuracy, Ends};
 use solver::scene::{Effect, Switches};
 
-/// The figures of the README: the thesis' free model over 2 000 cycles, and the plane contact, one after the other.
+/// The figures of `docs/guide/extruded.md`: the thesis' free model over 2 000 cycles, and the plane contact, one after the other.
 #[test]
 #[ignore = "measures time; run it by name"]
 #[expect(

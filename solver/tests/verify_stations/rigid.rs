@@ -70,7 +70,7 @@ fn depth_of_the_rigid_ring() {
 mod night {
     use super::*;
 
-    /// The figures of the README: the thesis' ring with 17 stations at 2 %, and the plane contact under the same line load, one after the other.
+    /// The figures of `docs/guide/lines.md`: the thesis' ring with 17 stations at 2 %, and the plane contact under the same line load, one after the other.
     #[test]
     #[ignore = "night: takes minutes"]
     #[expect(

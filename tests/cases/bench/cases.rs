@@ -56,7 +56,7 @@ pub(super) fn all() -> Vec<Case> {
     ]
 }
 
-/// The cylinder of *Other codes on the same work* (README.md): R = 6 mm on a block of 12 x 6 mm, 185 N/mm, mu = 0.8,
+/// The cylinder of docs/guide/accuracy.md: R = 6 mm on a block of 12 x 6 mm, 185 N/mm, mu = 0.8,
 /// +-25 um, no wear, elements of 10 um.
 pub(super) const CYLINDER: &str = r#"{
   "system": {"kind": "cylinder_on_flat", "radius_mm": 6.0, "flat_length_mm": 12.0, "flat_height_mm": 6.0},

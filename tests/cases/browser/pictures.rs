@@ -1,4 +1,4 @@
-//! The pictures of README.md: charts of its demonstration, drawn as the page draws them.
+//! The pictures of docs/tutorial/demo.md: charts of its demonstration, drawn as the page draws them.
 
 use tests::{Browser, spec};
 
@@ -12,7 +12,7 @@ const PICTURES: [(&str, &str); 3] = [
 ];
 
 #[tokio::test]
-#[ignore = "writes the pictures of README.md to target/screenshots; run it by name"]
+#[ignore = "writes the pictures of docs/tutorial/demo.md to target/screenshots; run it by name"]
 async fn pictures_of_the_readme() {
     let (_folder, server, browser) = service_and_browser().await;
     let text = std::fs::read_to_string(spec("fuzz_button.json")).expect("it is there");

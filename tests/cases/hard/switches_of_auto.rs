@@ -1,5 +1,5 @@
 //! Requirement: where `auto` changes from one model to another, both give the same wear within the tolerance.
-//! Source: README "Rings, crowns and tilts"; the spring of a memory card. The crowns and tilts are found by bisection of what the plan chooses.
+//! Source: docs/guide/lines.md; the spring of a memory card. The crowns and tilts are found by bisection of what the plan chooses.
 //! Naive: a switch by a ratio that no error is known of, and a life that jumps by a factor where a crown changes by a thousandth.
 
 use serde_json::{Value, json};

@@ -20,7 +20,7 @@ const SETTINGS: [&str; 1] = ["max_connections=200"];
     not(all(has_postgresql, has_haproxy)),
     ignore = "needs the programs of PostgreSQL and HAProxy"
 )]
-#[expect(clippy::print_stdout, reason = "the figures that the README quotes")]
+#[expect(clippy::print_stdout, reason = "the figures that the book quotes")]
 async fn a_primary_and_a_service_that_are_killed_lose_no_job() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let primary = PostgresServer::start(&SETTINGS);

@@ -196,7 +196,7 @@ async fn accepted(client: &Client, jobs: usize) -> Vec<String> {
     not(all(has_postgresql, has_haproxy, has_cc)),
     ignore = "needs the programs of PostgreSQL, HAProxy and a C compiler"
 )]
-#[expect(clippy::print_stdout, reason = "the figures that the README quotes")]
+#[expect(clippy::print_stdout, reason = "the figures that the book quotes")]
 async fn what_is_away_for_less_than_a_lease_costs_no_job_and_no_attempt() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let (jobs, workers, services) = load();
