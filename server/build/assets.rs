@@ -25,6 +25,7 @@ pub(crate) fn embed() -> io::Result<()> {
     let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     let mut files = vec![("plotly.js".to_owned(), plotly().into_bytes())];
     collect(Path::new(FOLDER), "", &mut files)?;
+    files.extend(crate::book::pages()?);
     files.sort();
     let version = version(&files);
     println!("cargo::rustc-env=FRETWEAR_ASSETS={version}");
@@ -78,10 +79,13 @@ fn complete_pages(files: &mut [(String, Vec<u8>)], version: &str) {
         .expect("text can be written");
     }
     for (path, bytes) in files.iter_mut() {
-        let Some(name) = path.strip_suffix("index.html") else {
+        if Path::new(path)
+            .extension()
+            .is_none_or(|extension| extension != "html")
+        {
             continue;
-        };
-        let preloads = if name.is_empty() { &preloads } else { "" };
+        }
+        let preloads = if path == "index.html" { &preloads } else { "" };
         let text = String::from_utf8_lossy(bytes);
         let text = text.replace("\"/assets/", &folder);
         *bytes = text

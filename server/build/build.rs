@@ -1,6 +1,7 @@
 //! What the program contains besides its code: the commit that it is built from, and the dashboard.
 
 mod assets;
+mod book;
 mod postgresql;
 
 use std::process::Command;

@@ -22,6 +22,8 @@ async fn only_requests_with_the_token_are_answered() {
         ("/readyz", 200),
         ("/", 200),
         ("/docs", 200),
+        ("/book", 200),
+        ("/book/guide/accuracy.html", 200),
         ("/v1/jobs", 401),
         ("/v1/systems", 401),
         ("/openapi.json", 401),

@@ -24,9 +24,9 @@ const MIN_TOKEN_LENGTH: usize = 16;
 /// Maximum length of a token, characters; it must fit into a header.
 const MAX_TOKEN_LENGTH: usize = 512;
 /// Paths that need no token, besides the assets of the pages: health checks, and pages, which contain no data.
-const PUBLIC_PATHS: [&str; 4] = ["/", "/docs", "/healthz", "/readyz"];
-/// The assets are the scripts and style sheets of the pages, without data too; so are the explanations of problems.
-const PUBLIC_FOLDERS: [&str; 2] = ["/assets/", "/problems/"];
+const PUBLIC_PATHS: [&str; 5] = ["/", "/book", "/docs", "/healthz", "/readyz"];
+/// The assets are the scripts and style sheets of the pages, without data too; so are the book and the explanations of problems.
+const PUBLIC_FOLDERS: [&str; 3] = ["/assets/", "/book/", "/problems/"];
 
 /// Error of a configured token.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

@@ -97,6 +97,8 @@ pub(super) fn routes_and_document() -> (Router<App>, Document) {
         .routes(routes!(operation::drain_worker::drain_worker))
         .routes(routes!(operation::serve_pages::dashboard))
         .routes(routes!(operation::serve_pages::docs))
+        .routes(routes!(operation::serve_pages::book))
+        .route("/book/{*path}", get(operation::serve_pages::book_page))
         .route("/assets/{*path}", get(operation::serve_pages::asset))
         .routes(routes!(
             worker_tokens::create::create_worker_token,

