@@ -9,7 +9,7 @@ use uuid::Uuid;
 /// A batch without its jobs.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct BatchOverview {
-    /// Its id.
+    /// Id.
     pub id: Uuid,
     /// Name for people.
     pub name: Option<String>,

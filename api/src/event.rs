@@ -42,9 +42,9 @@ pub struct Done {
 pub struct FeedEvent {
     /// The revision of the change.
     pub id: String,
-    /// Its name.
+    /// Name.
     pub event: FeedEventName,
-    /// Its document, JSON: the short document of a job, the `id` of a deleted one, or nothing.
+    /// Document, JSON: the short document of a job, the `id` of a deleted one, or nothing.
     #[schema(content_media_type = "application/json")]
     pub data: String,
 }
@@ -66,12 +66,12 @@ string_enum! {
 /// An event of the stream.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct StreamEvent {
-    /// Its number within the job, from 1 without gaps; `snapshot` has none.
+    /// Number within the job, from 1 without gaps; `snapshot` has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub id: Option<String>,
-    /// Its name.
+    /// Name.
     pub event: EventName,
-    /// Its document, JSON: a job, an attempt, progress, a row of the wear history, or the final status.
+    /// Document, JSON: a job, an attempt, progress, a row of the wear history, or the final status.
     #[schema(content_media_type = "application/json")]
     pub data: String,
 }

@@ -29,7 +29,7 @@ string_enum! {
 }
 
 impl Status {
-    /// Whether the status is final.
+    /// Returns `true` if the status is final.
     pub fn is_terminal(self) -> bool {
         matches!(self, Self::Succeeded | Self::Failed | Self::Cancelled)
     }

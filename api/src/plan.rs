@@ -12,7 +12,7 @@ use crate::spec::{Criterion, DerivedMotion, Provenance, Spec};
 string_enum! {
     /// A decision about an effect.
     Decision {
-        /// The scene calls for it.
+        /// The scene requires it.
         Simulated = "simulated",
         /// The scene does not call for it, or has nothing to simulate.
         Skipped = "skipped",
@@ -20,7 +20,7 @@ string_enum! {
         ForcedOn = "forced_on",
         /// Left out because it is switched off.
         ForcedOff = "forced_off",
-        /// The scene calls for it and the specification lacks what it needs, which the reason names.
+        /// The scene requires it and the specification lacks what it needs, which the reason names.
         InputMissing = "input_missing",
     }
 }
@@ -167,7 +167,7 @@ pub struct Plan {
 pub struct PlanDocument {
     /// The resolved specification.
     pub spec: Spec,
-    /// Its plan.
+    /// Plan.
     pub plan: Plan,
     /// Calibration of the machine that `cpu_s` refers to; absent if it is not calibrated.
     #[serde(default, skip_serializing_if = "Option::is_none")]

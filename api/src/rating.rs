@@ -45,6 +45,6 @@ pub struct RatingRun {
     pub factor: f64,
     /// Cycles until the criterion was reached; if it was not, the cycles of the run in proportion to how far it was.
     pub cycles: f64,
-    /// Whether it was reached.
+    /// True if it was reached.
     pub is_reached: bool,
 }

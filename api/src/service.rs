@@ -1,4 +1,4 @@
-//! What a service does at present (`GET /v1/service`), and the labels of its jobs.
+//! Present state of a service (`GET /v1/service`), and the labels of its jobs.
 
 use std::collections::BTreeMap;
 
@@ -15,13 +15,13 @@ pub struct ServiceOverview {
     pub version: String,
     /// Number of jobs by status, including statuses that no job has.
     pub jobs: BTreeMap<String, u64>,
-    /// Its workers.
+    /// Workers.
     pub workers: Workers,
     /// Age of the job that waits longest, s; null if none waits.
     pub oldest_queued_s: Option<u64>,
     /// Free space on the disk of the database, MiB; null if it is not known.
     pub free_disk_mb: Option<u64>,
-    /// Whether it is about to stop and claims no job.
+    /// True if it is about to stop and claims no job.
     pub stopping: bool,
 }
 
@@ -39,7 +39,7 @@ pub struct Workers {
 pub struct Labels {
     /// By key; of each key the most frequent values first.
     pub labels: Vec<LabelInUse>,
-    /// Whether there are more than these.
+    /// True if there are more than these.
     pub more: bool,
 }
 
@@ -61,7 +61,7 @@ pub struct Demand {
     pub queued: u64,
     /// Jobs that run.
     pub running: u64,
-    /// Those of them that remote workers solve.
+    /// Running jobs that remote workers solve.
     pub running_remotely: u64,
     /// Estimated processor time of the waiting jobs, s; a minute for one without an estimate.
     pub queued_cpu_s: u64,

@@ -31,17 +31,17 @@ pub struct StudyRequest {
 pub struct StudyJob {
     /// The job.
     pub id: Uuid,
-    /// Its tolerance; absent where the settings are fixed.
+    /// Tolerance; absent where the settings are fixed.
     pub tolerance: Option<f64>,
-    /// Its surface element size under the contact, mm, where it is fixed.
+    /// Surface element size under the contact, mm, where it is fixed.
     pub contact_element_mm: Option<f64>,
-    /// Its increments per computed cycle, where they are fixed.
+    /// Increments per computed cycle, where they are fixed.
     pub increments_per_cycle: Option<u32>,
-    /// Its jump, where that is fixed.
+    /// Jump, where that is fixed.
     pub cycle_jump: Option<f64>,
-    /// Its sections along a line, where they are fixed.
+    /// Sections along a line, where they are fixed.
     pub stations: Option<u32>,
-    /// Its status.
+    /// Status.
     pub status: Status,
     /// How its solve ended.
     pub outcome: Option<Outcome>,
@@ -50,7 +50,7 @@ pub struct StudyJob {
 /// A study in the service: its jobs, and the comparison of their results so far.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct StudyDocument {
-    /// Its id.
+    /// Id.
     pub id: Uuid,
     /// Name for people.
     pub name: Option<String>,
@@ -59,7 +59,7 @@ pub struct StudyDocument {
     pub created_at: String,
     /// Number of its jobs by status, including statuses that no job has.
     pub counts: BTreeMap<String, u64>,
-    /// Its jobs in order, without those that were deleted.
+    /// Jobs in order, without those that were deleted.
     pub jobs: Vec<StudyJob>,
     /// The results so far, compared; absent until a job at a tolerance, or the finest of the grid, has succeeded.
     pub study: Option<Study>,
@@ -92,7 +92,7 @@ pub struct Study {
 /// One run of a study.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct StudyRun {
-    /// Its tolerance; absent where the settings were fixed.
+    /// Tolerance; absent where the settings were fixed.
     pub tolerance: Option<f64>,
     /// Surface element size under the contact, mm.
     pub contact_element_mm: f64,
@@ -108,7 +108,7 @@ pub struct StudyRun {
     pub outcome: Option<Outcome>,
     /// Why it failed.
     pub failure: Option<String>,
-    /// Its errors against the reference; absent where it failed.
+    /// Errors against the reference; absent where it failed.
     pub errors: Option<Errors>,
     /// Names of its errors that are smaller than the uncertainty of the reference, and so only bounded by it.
     #[serde(rename = "below_doubt")]
@@ -117,7 +117,7 @@ pub struct StudyRun {
     pub cpu_s: f64,
     /// Largest resident memory of its process, MiB.
     pub peak_memory_mb: f64,
-    /// Whether it is on the Pareto front: no cheaper run has errors of depth and width as small.
+    /// True if it is on the Pareto front: no cheaper run has errors of depth and width as small.
     pub on_front: bool,
 }
 
@@ -167,7 +167,7 @@ impl Errors {
 /// The solution that runs are compared with.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Reference {
-    /// Its derivation, in words.
+    /// Derivation, in words.
     pub method: String,
     /// Largest worn depth, mm.
     pub max_depth_mm: f64,
@@ -177,7 +177,7 @@ pub struct Reference {
     pub peak_pressure_mpa: f64,
     /// Worn area, mm^2.
     pub worn_area_mm2: f64,
-    /// Its uncertainty: the sizes of all corrections that lead from the finest run to it.
+    /// Uncertainty: the sizes of all corrections that lead from the finest run to it.
     pub uncertainty: Errors,
     /// Observed orders of convergence, one row for each setting.
     pub orders: Vec<Orders>,
@@ -189,7 +189,7 @@ pub struct Reference {
 pub struct Orders {
     /// The setting: `contact_element_mm`, `increments_per_cycle`, `cycle_jump` or `stations`.
     pub setting: String,
-    /// Its three levels, finest first.
+    /// Three levels, finest first.
     pub levels: Vec<f64>,
     /// Of the largest worn depth.
     pub depth: Option<f64>,

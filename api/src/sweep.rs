@@ -49,12 +49,12 @@ pub struct SweepPlan {
 pub struct SweepJob {
     /// The job.
     pub id: Uuid,
-    /// Its number in the sweep, from 0.
+    /// Number in the sweep, from 0.
     pub position: u64,
-    /// Its changes against the base.
+    /// Changes against the base.
     #[schema(value_type = BTreeMap<String, Value>)]
     pub overrides: Changes,
-    /// Its status.
+    /// Status.
     pub status: Status,
     /// How its solve ended.
     pub outcome: Option<Outcome>,
@@ -75,7 +75,7 @@ pub struct RefusedChanges {
 /// A sweep.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Sweep {
-    /// Its id.
+    /// Id.
     pub id: Uuid,
     /// Name for people.
     pub name: Option<String>,
@@ -95,7 +95,7 @@ pub struct Sweep {
     pub never_queued: u64,
     /// Number of combinations that made no valid job, found when they were to be queued.
     pub refused: u64,
-    /// Its jobs in order, or a part of them, without those that were deleted; `links.next` has the next part.
+    /// Jobs in order, or a part of them, without those that were deleted; `links.next` has the next part.
     pub jobs: Vec<SweepJob>,
     /// The first 100 combinations that made no valid job.
     pub refused_changes: Vec<RefusedChanges>,

@@ -8,7 +8,7 @@ use crate::spec::{Spec, SystemKind};
 /// A contact system and its preset.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SystemDocument {
-    /// Its kind.
+    /// Kind.
     pub kind: SystemKind,
     /// Description.
     pub description: String,

@@ -22,7 +22,7 @@ pub struct NewWorkerToken {
 /// A token of workers.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct WorkerToken {
-    /// Its id.
+    /// Id.
     pub id: Uuid,
     /// What it is for.
     pub name: String,
@@ -35,7 +35,7 @@ pub struct WorkerToken {
 /// A token that was just made.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct CreatedWorkerToken {
-    /// Its entry.
+    /// Entry.
     #[serde(flatten)]
     pub entry: WorkerToken,
     /// The token itself, which is not stored and not shown again.
@@ -61,7 +61,7 @@ pub struct WorkerList {
 /// A process with remote workers.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct RemoteWorker {
-    /// Its id, new with each start.
+    /// Id, new with each start.
     pub id: Uuid,
     /// Name of its machine.
     pub host: String,
@@ -75,7 +75,7 @@ pub struct RemoteWorker {
     pub free_memory_mb: u64,
     /// Time since it was last in contact, s.
     pub last_contact_s: u64,
-    /// Whether it takes no more jobs, and ends when it has solved those that it holds.
+    /// True if it takes no more jobs, and ends when it has solved those that it holds.
     pub is_draining: bool,
     /// Why it starts no solves at present, and gives the jobs back that it claims; null if its last one has started.
     pub failing: Option<String>,

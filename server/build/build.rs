@@ -1,4 +1,4 @@
-//! What the program contains besides its code: the commit that it is built from, and the dashboard.
+//! Content of the program besides its code: the commit that it is built from, the dashboard and the book.
 
 mod assets;
 mod book;

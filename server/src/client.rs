@@ -291,7 +291,7 @@ fn is_address(url: &Url) -> bool {
     ["http", "https"].contains(&url.scheme()) && url.has_host() && url.query().is_none()
 }
 
-/// Whether a proxy cannot reach the host of an address.
+/// Returns `true` if a proxy cannot reach the host of an address.
 fn is_loopback(url: &Url) -> bool {
     let host = url.host_str().unwrap_or_default();
     let ip = host.trim_matches(['[', ']']).parse::<IpAddr>();

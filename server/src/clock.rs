@@ -61,10 +61,10 @@ impl From<i64> for Now {
 /// The clock of a store, by which it measures leases.
 #[derive(Debug, Default)]
 pub enum Clock {
-    /// Those of this process.
+    /// The clock of this process.
     #[default]
     System,
-    /// That of the database, which this process does not know.
+    /// The clock of the database, which this process does not know.
     Database,
     /// A time that a test sets, ms.
     Manual(AtomicI64),
@@ -118,7 +118,7 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// That of this process; none where the system does not tell (it is Linux that does).
+    /// Origin of the clock of this process; `None` where the system does not state it (only Linux does).
     pub fn of_this_process() -> Option<Self> {
         let boot = boot()?;
         let since_boot = clock_gettime(ClockId::CLOCK_MONOTONIC).ok()?;

@@ -23,7 +23,7 @@ pub(crate) struct Pending<Q, A> {
 }
 
 impl<Q, A> Pending<Q, A> {
-    /// Whether nobody waits for the answer any more.
+    /// Returns `true` if nobody waits for the answer any more.
     pub(crate) fn is_given_up(&self) -> bool {
         self.answer.is_closed()
     }

@@ -64,7 +64,7 @@ pub enum ObjectsError {
     /// The store of objects refused a request or cannot be reached.
     #[error("{location}: {cause}")]
     Store {
-        /// Its address.
+        /// Address.
         location: String,
         /// The cause.
         cause: Box<dyn std::error::Error + Send + Sync>,
@@ -152,7 +152,7 @@ impl Objects {
         })
     }
 
-    /// Its address.
+    /// Address.
     pub fn location(&self) -> &str {
         &self.location
     }

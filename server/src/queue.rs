@@ -31,15 +31,15 @@ pub enum Transition {
     Fail,
     /// It was cancelled: by the user while queued, by its worker while running.
     Cancel,
-    /// Its worker releases it at a graceful shutdown.
+    /// Worker releases it at a graceful shutdown.
     Release,
     /// The worker cannot make the attempt at present, by no fault of the job.
     Decline,
-    /// Its worker was lost.
+    /// Worker was lost.
     WorkerLost,
-    /// Its deadline has passed.
+    /// Deadline has passed.
     Expire,
-    /// Its user asks for another try.
+    /// User asks for another try.
     Retry,
 }
 

@@ -66,7 +66,7 @@ pub enum RatingError {
         factor: f64,
         /// How the run ended.
         outcome: &'static str,
-        /// Its cycles.
+        /// Cycles.
         cycles: u64,
     },
     /// The runs do not approach the rated cycles.

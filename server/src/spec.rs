@@ -71,7 +71,7 @@ pub struct Resolved {
     pub kind: SystemKind,
     /// The scene.
     pub scene: Scene,
-    /// Its mesh lines, which show that it can be meshed; none of a point contact.
+    /// Mesh lines, which show that it can be meshed; none of a point contact.
     pub layout: Option<Layout>,
     /// How its motion was derived from a vibration, a thermal cycle or an insertion.
     pub motion: Option<DerivedMotion>,
@@ -207,7 +207,7 @@ pub fn cycles(spec: &Spec) -> u64 {
         .unwrap_or_else(|| mission.saturating_mul(spec.repeat.unwrap_or(1)))
 }
 
-/// Whether the motion of a resolved specification is continuous.
+/// Returns `true` if the motion of a resolved specification is continuous.
 pub(crate) fn is_continuous(spec: &Spec) -> bool {
     let motion = spec.motion.as_ref();
     motion.is_some_and(|motion| motion.distance_mm.is_some())

@@ -86,7 +86,7 @@ impl<E: Employer> Drop for Unfinished<'_, E> {
     }
 }
 
-/// Whether no job waits or runs anywhere; without an answer there may be one.
+/// Returns `true` if no job waits or runs anywhere; without an answer there may be one.
 async fn is_idle(employer: &impl Employer) -> bool {
     employer.is_idle().await.unwrap_or_else(|error| {
         tracing::warn!(%error, "it is not known whether jobs wait");

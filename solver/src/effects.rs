@@ -1,4 +1,4 @@
-//! Effects plan: decides by numbers which effects a scene calls for. Only those are simulated.
+//! Effects plan: decides by numbers which effects a scene requires. Only those are simulated.
 //!
 //! An indicator estimates how much an effect changes the outputs, relative. It is taken for the unworn contact and at the
 //! estimated end, and again after every computed cycle. An effect is skipped if its indicator is at most a fifth of the
@@ -36,18 +36,18 @@ pub struct EffectsPlan {
     pub decisions: Vec<Decision>,
 }
 
-/// A skipped effect that a run has called for.
+/// A skipped effect that a run has required.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Crossing {
     /// The effect.
     pub effect: Effect,
     /// Physical cycles done before it was switched on.
     pub cycle: u64,
-    /// Its indicator after the next computed cycle without it; `None` where that has no solution.
+    /// Indicator after the next computed cycle without it; `None` where that has no solution.
     pub value: Option<f64>,
 }
 
-/// Decides which effects a scene calls for.
+/// Decides which effects a scene requires.
 pub fn plan(scene: &Scene) -> EffectsPlan {
     let indicators = Indicators::of(scene);
     let mut called_for = Vec::new();
@@ -96,7 +96,7 @@ impl EffectsPlan {
         decisions.find(|decision| decision.effect == effect)
     }
 
-    /// Whether an effect is simulated.
+    /// Returns `true` if an effect is simulated.
     pub fn simulates(&self, effect: Effect) -> bool {
         let decision = self.decision(effect);
         decision.is_some_and(|decision| decision.verdict.is_on())
@@ -131,7 +131,7 @@ impl EffectsPlan {
         counted(self.decisions.iter()).fold(0.0, |sum, (_, value)| sum + value)
     }
 
-    /// The plan with the effects that a run has called for.
+    /// The plan with the effects that a run has required.
     #[must_use]
     pub fn after(&self, crossings: &[Crossing]) -> Self {
         let mut plan = self.clone();
@@ -181,7 +181,7 @@ impl EffectsPlan {
         })
     }
 
-    /// Heat of the current, if it was skipped and the resistance of the contact calls for it; a run goes back to the cycle before.
+    /// Heat of the current, if it was skipped and the resistance of the contact requires it; a run goes back to the cycle before.
     pub(crate) fn crossed_by_current(
         &self,
         scene: &Scene,
@@ -221,7 +221,7 @@ impl EffectsPlan {
         }
     }
 
-    /// An effect that a run has called for. Where friction acts on the bodies, nodes may stick unless that is switched off or, as in sections
+    /// An effect that a run has required. Where friction acts on the bodies, nodes may stick unless that is switched off or, as in sections
     /// along a line, every node slips.
     fn called_for(
         &self,
@@ -248,7 +248,7 @@ impl EffectsPlan {
             .collect()
     }
 
-    /// The skipped effects that a contact without a solution calls for, after so many physical cycles: one that jams where
+    /// The skipped effects that a contact without a solution requires, after so many physical cycles: one that jams where
     /// every node has to slip may stick.
     pub fn called_for_by_failure(&self, cycle: u64) -> Vec<Crossing> {
         let skipped = |effect: &Effect| {

@@ -9,7 +9,7 @@
 //! bases. A single spot spreads the current along the depth of the section, too, which the bodies' part, even along it, counts again: by a
 //! few per cent of it.
 //!
-//! A computed cycle stands for many, within which a metal comes to light and the resistance jumps. Both are located there: in the first of its
+//! A computed cycle stands for many, within which a metal is exposed and the resistance jumps. Both are located there: in the first of its
 //! contacts (`Touching`, by the part of the cycles) that shows the metal, or has the resistance.
 
 mod constriction;
@@ -58,7 +58,7 @@ pub struct ContactResistance {
 pub(crate) struct Contact<'a> {
     /// Load per depth of the section, N/mm.
     pub(crate) load_n_per_mm: f64,
-    /// Its ends, mm.
+    /// Ends, mm.
     pub(crate) span: (f64, f64),
     /// Both worn surfaces.
     pub(crate) surfaces: Sides<Surface<'a>>,

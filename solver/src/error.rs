@@ -1,4 +1,4 @@
-//! What can end a solve without a result: one variant a stage.
+//! Errors of a solve: one variant a stage.
 
 use crate::checkpoint::Misfit;
 use crate::condensation::OperatorError;
@@ -36,7 +36,7 @@ pub enum SolveError {
 }
 
 impl SolveError {
-    /// Whether wider zones of fine elements would help.
+    /// Returns `true` if wider zones of fine elements would help.
     pub(crate) fn needs_wider_zones(&self) -> bool {
         matches!(self, Self::Cycle(error) if error.needs_wider_zones())
     }

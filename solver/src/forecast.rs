@@ -65,7 +65,7 @@ pub struct Forecast {
     pub computed_cycles: f64,
     /// Number of condensations of each body.
     pub condensations: Sides<u32>,
-    /// Its increments, in order.
+    /// Increments, in order.
     pub segments: Vec<Segment>,
     /// Natural logarithm of the cycles at the end over those at which a layer was worn through to one that wears much faster; 0 where none is.
     pub fast_layer: f64,

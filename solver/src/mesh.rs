@@ -14,7 +14,7 @@ pub enum MeshError {
     /// An element is inverted.
     #[error("element {element} near x = {x_mm:.6} mm is inverted")]
     Inverted {
-        /// Its number, columns first.
+        /// Number, columns first.
         element: usize,
         /// Where it is, mm.
         x_mm: f64,

@@ -28,9 +28,9 @@ pub struct Model {
     pub bodies: Sides<BodyModel>,
     /// Laws and load of the interface.
     pub interface: Interface,
-    /// Whether the meshes follow the worn surfaces.
+    /// True if the meshes follow the worn surfaces.
     pub relocates: bool,
-    /// Whether the current in the bodies is part of it.
+    /// True if the current in the bodies is part of it.
     pub conducts: bool,
     /// Effects on the wear of the surfaces that are part of it.
     pub surface: SurfaceEffects,
@@ -41,7 +41,7 @@ pub struct Model {
 /// One body: its contact surface, and the meshes that respond to forces on it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyModel {
-    /// Its mesh lines.
+    /// Mesh lines.
     pub layout: BodyLayout,
     /// Heights of the surface nodes of all spines at the geometry of the operators, mm.
     surface_y: Vec<f64>,
@@ -54,13 +54,13 @@ pub struct BodyModel {
 /// A body meshed finely along a zone of its contact surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ZoneModel {
-    /// Its spines among those of the body.
+    /// Spines among those of the body.
     pub zone: Zone,
     /// Mesh at the geometry of the operators.
     pub mesh: ColumnMesh,
     /// Elastic constants.
     pub lame: Lame,
-    /// Whether the elements use the mean volumetric strain (B-bar).
+    /// True if the elements use the mean volumetric strain (B-bar).
     pub b_bar: bool,
     /// Support.
     pub support: Support,
@@ -97,7 +97,7 @@ pub struct Interface {
     pub tangential: Tangential,
     /// The body whose nodes carry the contact constraints, pressure and shear.
     pub slave: Side,
-    /// Whether part of the contact may stick through the whole stroke.
+    /// True if part of the contact may stick through the whole stroke.
     pub sticks: bool,
     /// Weights of both surfaces' slopes in that of the interface, which the contact's normals belong to, -.
     pub slope_weights: Sides<f64>,

@@ -36,7 +36,7 @@ pub struct Sizes {
     pub hertz_half_width: f64,
     /// Estimated half-width of the contact at the end.
     pub final_half_width: f64,
-    /// Whether part of the contact may stick through the whole stroke.
+    /// True if part of the contact may stick through the whole stroke.
     pub sticks: bool,
     /// The body whose nodes carry the contact constraints.
     pub slave: Side,
@@ -95,7 +95,7 @@ pub fn choose(scene: &Scene) -> Sizes {
     sizes.unwrap_or_else(|| of_motion(scene, hertz, rates, 0.0))
 }
 
-/// Whether anything moves in a scene.
+/// Returns `true` if anything moves in a scene.
 fn moves(scene: &Scene) -> bool {
     scene.motion.distance_per_cycle_mm() > 0.0
 }

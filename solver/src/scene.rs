@@ -82,7 +82,7 @@ pub struct Scene {
     pub drive: Drive,
     /// The imposed relative motion (slider minus receptacle); of a mission its mean cycle, for estimates.
     pub motion: Motion,
-    /// Its course in time.
+    /// Course in time.
     pub timing: Timing,
     /// Number of physical cycles, of all blocks of a mission.
     pub cycles: u64,
@@ -110,7 +110,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Whether there is friction between the bodies.
+    /// Returns `true` if there is friction between the bodies.
     pub(crate) fn has_friction(&self) -> bool {
         self.largest_friction() > 0.0
     }
@@ -165,7 +165,7 @@ impl Scene {
         self.timed_motion().mean().speed()
     }
 
-    /// Its largest speed, mm/s.
+    /// Largest speed, mm/s.
     pub fn fastest_speed_mm_s(&self) -> f64 {
         self.timed_motion().fastest().speed()
     }
@@ -175,7 +175,7 @@ impl Scene {
         TimedMotion::new(self.motion, &self.timing)
     }
 
-    /// Whether a run may end before its last cycle by a condition of the user.
+    /// Returns `true` if a run may end before its last cycle by a condition of the user.
     pub(crate) fn has_stops(&self) -> bool {
         let conduction = self.conduction.known();
         let limited = conduction.is_some_and(|electrical| !electrical.stop_mohm.is_empty());
@@ -233,6 +233,6 @@ pub struct Output {
     pub stations_mm: Vec<f64>,
     /// Cycles at which profile, pressure and loop are recorded, ascending.
     pub snapshots_at_cycles: Vec<u64>,
-    /// Whether snapshots hold displacement and stress inside the bodies.
+    /// True if snapshots hold displacement and stress inside the bodies.
     pub fields: bool,
 }

@@ -1,7 +1,7 @@
 //! Contact resistance over the cycles of a plated contact.
 //!
 //! * Unworn, worn into the base, and worn in part: the closed resistances of a spot of gold, of copper, and both in parallel.
-//! * A limit is met at the same cycle whether the run stops there or goes on, and interrupted runs reach the same bits.
+//! * A limit is met at the same cycle whether the run stops there or continues, and interrupted runs reach the same bits.
 //! * The resistance changes no wear.
 
 use crate::recorder::{Recorder, solve};

@@ -126,7 +126,7 @@ impl Observer for Delivered {
     }
 }
 
-/// Its mesh and its increments leave more than 2 % in the depth.
+/// Mesh and its increments leave more than 2 % in the depth.
 pub(crate) fn outside_at_first() -> Scene {
     with_estimate(&draw(1, 30, REFERENCE * TOLERANCE, 10.0))
 }

@@ -122,7 +122,7 @@ fn a_floor_under_a_long_wipe_wears_by_each_pass() {
     assert!(summary.checks.worn_area < 1e-12);
 }
 
-/// The estimate of the contact's width may be wrong; zones then become wider, and the run goes on from the same cycle.
+/// The estimate of the contact's width may be wrong; zones then become wider, and the run continues from the same cycle.
 #[test]
 fn a_contact_that_outgrows_its_zones_gets_wider_ones() {
     let mut scene = wipe(Sides {

@@ -1,6 +1,6 @@
 //! Lives of plated contacts, and the work that an interface costs.
 //!
-//! * A criterion is reached at the same cycle whether the run stops there or goes on.
+//! * A criterion is reached at the same cycle whether the run stops there or continues.
 //! * A base that wears twenty times as fast as its plating, or not at all, needs few computed cycles more than a bare body.
 
 use crate::recorder::solve;
@@ -16,7 +16,7 @@ fn summary(scene: &Scene) -> Summary {
     solve(scene).expect("the scene can be solved").0
 }
 
-/// Cycles at which a run that stops there reaches a criterion, and at which its life is reached by one that goes on three times as
+/// Cycles at which a run that stops there reaches a criterion, and at which its life is reached by one that continues three times as
 /// long.
 fn stopped_and_passed(scene: &Scene, criterion: Criterion) -> (f64, f64) {
     let mut stopped = scene.clone();

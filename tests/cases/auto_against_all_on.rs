@@ -2,7 +2,7 @@
 //!
 //! Over scenes of all regimes the outputs with `auto` are those with every effect on, within the tolerance, for no more
 //! work; and an effect that the plan calls decisive changes the outputs by more than the tolerance when it is switched
-//! off. The long form prints the table of `docs/theory/effects-plan.md`.
+//! off. The long form prints the table of `docs/evidence/effects-plan.md`.
 
 mod difference;
 mod scenes;

@@ -21,7 +21,7 @@ fn instructions<'a>(dockerfile: &'a str, name: &str) -> Vec<&'a str> {
         .collect()
 }
 
-/// Whether a help names a variable of the environment, with its value or without, where that may be a secret.
+/// Returns `true` if a help names a variable of the environment, with its value or without, where that may be a secret.
 fn has_variable(help: &str, name: &str) -> bool {
     ['=', ']']
         .iter()

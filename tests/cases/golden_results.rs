@@ -4,7 +4,7 @@
 //! what is derived from the machine's speed are masked.
 //!
 //! The engine's bits depend on the processor's vector instructions, so the table holds for x86-64 with AVX2 and FMA;
-//! the case is ignored elsewhere. `FRETWEAR_WRITE_GOLDEN=1` writes the table anew, for a change that is meant to
+//! the case is ignored elsewhere. `FRETWEAR_WRITE_GOLDEN=1` writes the table again, for a change that is meant to
 //! change results.
 
 use std::collections::BTreeMap;

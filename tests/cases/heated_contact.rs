@@ -1,4 +1,4 @@
-//! Requirement: heat of the current and of friction is simulated where a specification calls for it, and its temperature is in the
+//! Requirement: heat of the current and of friction is simulated where a specification requires it, and its temperature is in the
 //! results; where it matters nothing, nothing of it is there.
 
 use std::path::Path;

@@ -1,5 +1,5 @@
 //! Requirement: a contact along a line, a ring or a crowned spring, is a job like any other. It reports its sections, their profiles and
-//! their histories, and `auto` chooses it where a contact calls for it.
+//! their histories, and `auto` chooses it where a contact requires it.
 
 use serde_json::{Value, json};
 use tests::{Server, fretwear, spec};

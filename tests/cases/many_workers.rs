@@ -64,7 +64,7 @@ fn asked(variable: &str, default: usize) -> usize {
     asked.map_or(default, |number| number.parse().expect("a number"))
 }
 
-/// Whether so many jobs and workers are asked for that only the rates are of interest.
+/// Returns `true` if so many jobs and workers are asked for that only the rates are of interest.
 fn is_long() -> bool {
     std::env::var_os("FRETWEAR_WORKERS_LOAD").is_some()
 }

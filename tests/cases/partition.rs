@@ -1,5 +1,5 @@
 //! Requirement: a worker whose network is cut, so that no packet arrives and nobody is told, loses no job and records nothing twice: for
-//! less than a lease it goes on, and for longer another worker continues the job, with the same bits.
+//! less than a lease it continues, and for longer another worker continues the job, with the same bits.
 
 use std::path::Path;
 use std::time::Duration;

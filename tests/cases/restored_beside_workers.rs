@@ -1,4 +1,4 @@
-//! Requirement: a database that is restored while a worker goes on with one of its jobs loses nothing of the job: what the worker writes
+//! Requirement: a database that is restored while a worker continues with one of its jobs loses nothing of the job: what the worker writes
 //! afterwards would leave a gap, so it has lost its lease, and the job is solved again from the last checkpoint of the restored database.
 
 use std::path::Path;

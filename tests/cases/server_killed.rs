@@ -63,7 +63,7 @@ async fn a_job_that_makes_progress_survives_more_kills_than_it_has_attempts() {
     let id = job["id"].as_str().expect("a job has an id").to_owned();
     let mut done = 0;
     for _ in 0..KILLS {
-        // Each attempt goes on beyond what the former one had reported, with several checkpoints.
+        // Each attempt continues beyond what the former one had reported, with several checkpoints.
         let beyond = |job: &serde_json::Value| job["progress"]["cycle"].as_u64() > Some(done + 80);
         let job = server.job_when(&id, beyond).await;
         done = job["progress"]["cycle"].as_u64().unwrap_or(0);

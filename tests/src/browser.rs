@@ -139,14 +139,14 @@ impl Browser {
             let element = wait.for_element(Locator::Css(selector)).await;
             let element = element.unwrap_or_else(|error| panic!("{selector}: {error}"));
             match element.click().await {
-                // The page has drawn this part anew in between.
+                // The page has drawn this part again in between.
                 Err(error) if error.is_stale_element_reference() => {}
                 clicked => return clicked.expect("it can be clicked"),
             }
         }
     }
 
-    /// Brings an element into view: what is out of view is drawn anew only when it comes into view.
+    /// Brings an element into view: what is out of view is drawn again only when it comes into view.
     ///
     /// # Panics
     /// If there is none.

@@ -7,16 +7,16 @@ use rcgen::{BasicConstraints, CertificateParams, IsCa, Issuer, KeyPair};
 /// Files with the certificate and the key of a server, and with the certificate of their authority.
 #[derive(Debug)]
 pub struct Certificates {
-    /// That of the authority.
+    /// Certificate of the authority.
     pub authority: PathBuf,
-    /// That of the server.
+    /// Certificate of the server.
     pub certificate: PathBuf,
     /// The server's key.
     pub key: PathBuf,
 }
 
 impl Certificates {
-    /// Those of a server of this name or address, written into a folder.
+    /// Certificates of a server of this name or address, written into a folder.
     ///
     /// # Panics
     /// If they cannot be made.

@@ -9,7 +9,7 @@ const NOWHERE: &str = "02:00:00:00:00:99";
 #[derive(Debug)]
 pub struct Network {
     name: String,
-    /// Its interface, and that of this machine.
+    /// Interface, and that of this machine.
     interfaces: [String; 2],
     /// Address of this machine in it.
     pub address: String,

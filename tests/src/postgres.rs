@@ -11,7 +11,7 @@ use std::time::Duration;
 const PROGRAMS: &str = env!("FRETWEAR_POSTGRESQL");
 /// The user as which it runs in a test of the superuser, which it refuses to run for.
 const USER: &str = "postgres";
-/// Its first process waits for the end of its input, which ends with the test, and then stops and removes everything, also what the test
+/// First process waits for the end of its input, which ends with the test, and then stops and removes everything, also what the test
 /// has paused.
 const SCRIPT: &str =
     r#""$@" & server=$!; read -r _; kill -INT $server; wait $server; rm -rf "$FOLDER""#;
@@ -24,7 +24,7 @@ pub struct PostgresServer {
     pub(crate) folder: PathBuf,
     databases: AtomicU32,
     first: Child,
-    /// Its end is the end of the server.
+    /// End is the end of the server.
     input: Option<ChildStdin>,
 }
 

@@ -69,7 +69,7 @@ impl PostgresServer {
         text.lines().next().expect("its process").to_owned()
     }
 
-    /// Its socket.
+    /// Socket.
     pub fn socket(&self) -> PathBuf {
         self.folder.join(".s.PGSQL.5432")
     }

@@ -7,7 +7,7 @@ use std::process::{Command, Output, Stdio};
 /// Exit code and output of a command.
 #[derive(Debug)]
 pub struct Ran {
-    /// Its exit code; `None` if a signal ended it.
+    /// Exit code; `None` if a signal ended it.
     pub code: Option<i32>,
     /// Standard output.
     pub stdout: String,

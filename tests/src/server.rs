@@ -23,11 +23,11 @@ const KEPT: &str = "FRETWEAR_TEST_LOG";
 #[derive(Debug)]
 pub struct Server {
     child: Child,
-    /// Its address, `http://127.0.0.1:PORT` unless it was asked to listen elsewhere.
+    /// Address, `http://127.0.0.1:PORT` unless it was asked to listen elsewhere.
     pub base: String,
     /// A client.
     pub client: reqwest::Client,
-    /// Its log, if nobody reads it.
+    /// Log, if nobody reads it.
     unread: Option<Lines<BufReader<ChildStderr>>>,
 }
 
@@ -183,7 +183,7 @@ impl Server {
         kill(self.id(), signal).expect("the service is there");
     }
 
-    /// Its process id.
+    /// Process id.
     ///
     /// # Panics
     /// If the id is out of range.

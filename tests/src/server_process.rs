@@ -1,11 +1,11 @@
-//! What the system tells of the processes of a service.
+//! Figures of the system about the processes of a service.
 
 use nix::unistd::Pid;
 
 use crate::server::Server;
 
 impl Server {
-    /// Its solving processes.
+    /// Solving processes.
     pub fn solving(&self) -> Vec<Pid> {
         let threads = std::fs::read_dir(format!("/proc/{}/task", self.id()));
         let lists = threads.into_iter().flatten().flatten();

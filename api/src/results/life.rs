@@ -45,7 +45,7 @@ pub struct LifeEntry {
     pub band: Option<LifeBand>,
     /// What the criterion compares, at the end of the run: a worn depth in mm, a part of the scar or a resistance in mOhm.
     pub value: Option<f64>,
-    /// Its limit, in the same unit.
+    /// Limit, in the same unit.
     pub limit: Option<f64>,
     /// What was missing, in words.
     pub reason: Option<String>,

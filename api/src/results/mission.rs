@@ -1,4 +1,4 @@
-//! What the blocks of a mission have worn.
+//! Worn depths of the blocks of a mission.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -8,10 +8,10 @@ use crate::spec::DerivedMotion;
 /// A block of a mission, as planned for all of its repetitions or as done.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BlockExtent {
-    /// Its name.
+    /// Name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Its cycles.
+    /// Cycles.
     pub cycles: u64,
     /// Amplitude of its motion, mm.
     pub amplitude_mm: f64,
@@ -29,7 +29,7 @@ pub struct BlockExtent {
 pub struct BlockSide {
     /// Worn area of the section, mm^2.
     pub worn_area_mm2: f64,
-    /// Its share in the worn area of all blocks, -.
+    /// Share in the worn area of all blocks, -.
     pub share: f64,
     /// Share of the block in the dose that the deepest point has received, -.
     pub share_of_deepest: f64,

@@ -34,6 +34,6 @@ pub struct ContactResistance {
     pub initial: f64,
     /// At the end of the run.
     pub r#final: f64,
-    /// Its parts at the end.
+    /// Parts at the end.
     pub parts: ResistanceParts,
 }

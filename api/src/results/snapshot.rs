@@ -70,7 +70,7 @@ pub struct Loop {
     pub displacement_mm: Vec<f64>,
     /// Force of the slider on the receptacle along x, N/mm.
     pub tangential_force_n_per_mm: Vec<f64>,
-    /// That of the whole contact, N; absent of a section.
+    /// Tangential force of the whole contact, N; absent of a section.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tangential_force_n: Vec<f64>,
 }

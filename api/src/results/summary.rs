@@ -13,7 +13,7 @@ use crate::spec::DerivedMotion;
 /// Temperature at the hottest place of a contact, °C.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ContactTemperature {
-    /// Its mean over the distance of the last computed cycle; of a mission that of its last block.
+    /// Mean over the distance of the last computed cycle; of a mission that of its last block.
     pub r#final: f64,
     /// The highest at any moment of the run.
     pub highest: f64,
@@ -39,7 +39,7 @@ pub struct SideSummary {
     pub ideal_volume_mm3: Option<f64>,
 }
 
-/// A contact of finite extent across the sliding direction, at the end.
+/// A contact of finite width, at the end.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ContactExtent {
     /// Normal force, N.
@@ -138,7 +138,7 @@ pub struct Cost {
     pub response_entries: u64,
 }
 
-/// An effect that the plan had skipped and the run has called for. The run returned to this cycle and continued with it.
+/// An effect that the plan had skipped and the run has required. The run returned to this cycle and continued with it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct EffectCalledFor {
     /// Name of the effect.
@@ -207,7 +207,7 @@ pub struct Summary {
     /// The decision about each effect at the end; `plan.effects` has their numbers.
     #[serde(default)]
     pub effects: BTreeMap<String, Decision>,
-    /// Effects that the plan had skipped and the run has called for.
+    /// Effects that the plan had skipped and the run has required.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub effects_called_for: Vec<EffectCalledFor>,
     /// Life by each criterion of the specification, in their order.

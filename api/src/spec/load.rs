@@ -21,7 +21,7 @@ string_enum! {
 /// values.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Load {
-    /// Its kind.
+    /// Kind.
     #[schema(value_type = LoadKind)]
     pub kind: EnumValue<LoadKind>,
     /// `pressure`: on the slider's top face, MPa.

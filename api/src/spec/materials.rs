@@ -29,7 +29,7 @@ pub enum Material {
 /// Properties of a material.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct MaterialProperties {
-    /// Its name in the library, if it is from there.
+    /// Name in the library, if it is from there.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Young's modulus, MPa. Required.

@@ -22,9 +22,9 @@ pub struct MissionBlock {
     /// Display name.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Its motion, of any kind but `continuous`.
+    /// Motion, of any kind but `continuous`.
     pub motion: Motion,
-    /// Its cycles in one repetition; `motion.duration_s` stands for them where it is given.
+    /// Cycles in one repetition; `motion.duration_s` stands for them where it is given.
     #[serde(
         default,
         skip_serializing_if = "Option::is_none",

@@ -19,7 +19,7 @@ string_enum! {
         Ring = "ring",
         /// Bodies of a width whose ends are free or held, in layers of solid elements.
         Extruded = "extruded",
-        /// `plane_strain`, `line` or `point`, whichever a slider of a width with a crown or a tilt calls for.
+        /// `plane_strain`, `line` or `point`, whichever a slider of a width with a crown or a tilt requires.
         Auto = "auto",
     }
 }
@@ -73,7 +73,7 @@ pub struct Model {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<ModelPreset>)]
     pub preset: Option<EnumValue<ModelPreset>>,
-    /// Its dimension; that of the preset if absent, else `plane_strain`.
+    /// Dimension; that of the preset if absent, else `plane_strain`.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<Dimension>)]
     pub dimension: Option<EnumValue<Dimension>>,
@@ -121,7 +121,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// Whether it has an extent of its own across the sliding direction, so that a force needs no width.
+    /// Returns `true` if it has an extent of its own across the sliding direction, so that a force needs no width.
     pub fn has_width(&self) -> bool {
         match self.dimension {
             None => self.preset.is_some(),

@@ -62,7 +62,7 @@ pub struct PsdPoint {
 /// A term of a Fourier series.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct FourierTerm {
-    /// Its order: periods of the term in one of the motion.
+    /// Order: periods of the term in one of the motion.
     #[serde(deserialize_with = "super::count::required")]
     pub order: u64,
     /// Amplitude of the sine, mm.
@@ -76,7 +76,7 @@ pub struct FourierTerm {
 /// The imposed motion. Which fields belong to it depends on its kind.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Motion {
-    /// Its kind.
+    /// Kind.
     #[schema(value_type = MotionKind)]
     pub kind: EnumValue<MotionKind>,
     /// `reciprocating`: its waveform.

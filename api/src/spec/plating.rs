@@ -18,7 +18,7 @@ pub struct Platings {
 }
 
 impl Platings {
-    /// Whether neither part has a list.
+    /// Returns `true` if neither part has a list.
     pub fn is_absent(&self) -> bool {
         self.slider.is_none() && self.receptacle.is_none()
     }
@@ -27,7 +27,7 @@ impl Platings {
 /// A layer.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct PlatingLayer {
-    /// Its material: a name from the library, or its properties. It determines the hardness, where `wear` states none.
+    /// Material: a name from the library, or its properties. It determines the hardness, where `wear` states none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub material: Option<Material>,
     /// Thickness, um; or `thickness_mm`.
@@ -36,7 +36,7 @@ pub struct PlatingLayer {
     /// Thickness, mm; or `thickness_um`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness_mm: Option<f64>,
-    /// Its wear law; that of the library's material if it lists a wear coefficient, required otherwise.
+    /// Wear law; that of the library's material if it lists a wear coefficient, required otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wear: Option<WearLaw>,
     /// Coefficient of friction where this layer lies open, -. The contact has the mean of both surfaces' there; a part none of whose

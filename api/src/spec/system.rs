@@ -24,7 +24,7 @@ string_enum! {
 /// The contact system. Which dimensions belong to it depends on its kind.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct System {
-    /// Its kind.
+    /// Kind.
     #[schema(value_type = SystemKind)]
     pub kind: EnumValue<SystemKind>,
     /// `fuzz_button`: diameter of the wire, mm.

@@ -30,7 +30,7 @@ pub enum EvaluateError {
     Format {
         /// The study.
         id: Uuid,
-        /// Its format.
+        /// Format.
         found: u32,
         /// The format that can be compared.
         supported: u32,

@@ -13,13 +13,13 @@ pub type Accept<'a> = dyn Fn(&Estimate) -> Result<(), Refused> + 'a;
 /// A job of a batch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Variation {
-    /// Its changes against the base specification.
+    /// Changes against the base specification.
     pub overrides: Changes,
     /// Specification of the variation as it would be sent, JSON.
     pub sent: String,
-    /// Its specification.
+    /// Specification.
     pub resolved: Resolved,
-    /// Its estimate.
+    /// Estimate.
     pub estimate: Estimate,
 }
 

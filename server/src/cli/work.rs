@@ -15,7 +15,7 @@ use crate::program;
 use crate::worker;
 use crate::worker::{EmployerError, Remote, RemoteOptions, WorkerProcess};
 
-/// Rounds of declined attempts in a row after which the process ends, so that whoever has started it learns that it is of no use: some two
+/// Rounds of declined attempts in a row after which the process ends, so that whoever has started it learns that it does not work: some two
 /// minutes.
 const MOST_DECLINED: usize = 8;
 /// Pause before a worker is started for one that has panicked.
@@ -100,7 +100,7 @@ impl Scratch {
 
 impl Drop for Scratch {
     fn drop(&mut self) {
-        // What is left is of no use to another process.
+        // What is left does not work to another process.
         let _ = fs_err::remove_dir_all(&self.0);
     }
 }

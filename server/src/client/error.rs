@@ -147,7 +147,7 @@ impl ClientError {
         }
     }
 
-    /// Whether the same request may succeed later.
+    /// Returns `true` if the same request may succeed later.
     pub fn is_temporary(&self) -> bool {
         match self {
             Self::Unreachable { .. } => true,
@@ -156,29 +156,29 @@ impl ClientError {
         }
     }
 
-    /// Whether the service could not be reached.
+    /// Returns `true` if the service could not be reached.
     pub fn is_unreachable(&self) -> bool {
         matches!(self, Self::Unreachable { .. })
     }
 
-    /// Whether the service refused what was sent, which the user can correct.
+    /// Returns `true` if the service refused what was sent, which the user can correct.
     pub fn is_refused(&self) -> bool {
         matches!(self, Self::AmbiguousId { .. })
             || matches!(self, Self::Problem { problem, .. } if [400, 413, 415, 422].contains(&problem.status))
     }
 
-    /// Whether the service does not accept this client at all.
+    /// Returns `true` if the service does not accept this client at all.
     pub fn is_rejected(&self) -> bool {
         matches!(self, Self::Redirected { .. } | Self::Answer { .. })
             || matches!(self, Self::Problem { problem, .. } if [401, 403, 404, 409].contains(&problem.status))
     }
 
-    /// Whether the service answered with a problem of this type.
+    /// Returns `true` if the service answered with a problem of this type.
     pub(crate) fn is_of_type(&self, kind: &str) -> bool {
         matches!(self, Self::Problem { problem, .. } if problem.kind == kind)
     }
 
-    /// Whether it concerns one file of several.
+    /// Returns `true` if it concerns one file of several.
     pub(super) fn is_of_file(&self) -> bool {
         matches!(self, Self::Received { .. }) || self.is_of_type("/problems/result-damaged")
     }

@@ -72,7 +72,7 @@ impl Footprint {
         }
     }
 
-    /// That of a point contact: the transforms of its window, and copies of the grids of both bodies.
+    /// Footprint of a point contact: the transforms of its window, and copies of the grids of both bodies.
     fn of_point(scene: &Scene, workload: &Workload) -> Self {
         let (window, surfaces) = workload.cells;
         let snapshots = real(scene.output.snapshots_at_cycles.len());

@@ -64,7 +64,7 @@ impl Workload {
         }
     }
 
-    /// That of sections along a line.
+    /// Workload of sections along a line.
     fn of_line(scene: &Scene, layout: &Layout, forecast: &LineForecast) -> Self {
         let mut increments = BTreeMap::new();
         for (nodes, count) in &forecast.solves {
@@ -93,7 +93,7 @@ impl Workload {
         }
     }
 
-    /// That of a point contact, which condenses nothing.
+    /// Workload of a point contact, which condenses nothing.
     fn of_point(scene: &Scene) -> Self {
         let forecast = point_forecast(scene).unwrap_or_default();
         Self {
@@ -240,7 +240,7 @@ fn solvable(scenes: Vec<Scene>) -> Vec<Workload> {
 const FILL_POWER: f64 = 2.5;
 
 impl Condensations {
-    /// Those of prisms between so many planes.
+    /// Condensations of prisms between so many planes.
     fn of_planes(self, planes: usize) -> Self {
         if planes == 1 {
             return self;

@@ -26,13 +26,13 @@ pub const VTU: &str = "application/xml";
 /// A named document.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Document {
-    /// Its name.
+    /// Name.
     pub name: String,
     /// The cycle it belongs to; `None` for the whole run.
     pub cycle: Option<u64>,
-    /// Its media type.
+    /// Media type.
     pub media_type: &'static str,
-    /// Its content.
+    /// Content.
     pub bytes: Vec<u8>,
 }
 

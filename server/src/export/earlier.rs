@@ -37,7 +37,7 @@ pub(super) fn remove(folder: &Path, present: &[&str]) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Whether a run writes a file of this name, but not every run.
+/// Returns `true` if a run writes a file of this name, but not every run.
 fn is_result(name: &str) -> bool {
     if name == "summary.json" {
         return true;

@@ -1,4 +1,4 @@
-//! What the blocks of a mission have worn.
+//! Worn depths of the blocks of a mission.
 
 use api::results::{BlockExtent, BlockSide, BlockSummary};
 use solver::record::{BlockWear, Side, Summary};

@@ -24,7 +24,7 @@ pub use colour_map::{ColourMap, MapPanel, svg as colour_map};
 /// A picture: panels one above the other with a common legend.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
-    /// Its title.
+    /// Title.
     pub title: String,
     /// Panels from top to bottom.
     pub panels: Vec<Panel>,
@@ -48,9 +48,9 @@ pub struct Series {
     pub label: String,
     /// Line and marker style.
     pub mark: Mark,
-    /// Its colour.
+    /// Colour.
     pub colour: Colour,
-    /// Its points.
+    /// Points.
     pub points: Vec<[f64; 2]>,
 }
 

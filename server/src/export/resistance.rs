@@ -3,7 +3,7 @@
 use api::results::{ContactResistance, ResistanceParts};
 use solver::record::Summary;
 
-/// That of the unworn contact and at the end of a run, mOhm; `None` where it was not computed.
+/// Resistance of the unworn contact and at the end of a run, mOhm; `None` where it was not computed.
 pub(crate) fn of(summary: &Summary) -> Option<ContactResistance> {
     let initial = summary.initial.contact_resistance_mohm?;
     let last = summary.last.resistance?;

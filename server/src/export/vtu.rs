@@ -20,10 +20,10 @@ use crate::export::history::count;
 /// The fields could not be written as VTU.
 #[derive(Debug, thiserror::Error)]
 pub enum VtuError {
-    /// Those of a section.
+    /// Writing a section failed.
     #[error("the fields cannot be written as VTU: {0}")]
     Section(#[from] vtkio::Error),
-    /// Those of a line.
+    /// Writing a line failed.
     #[error("the fields along the line cannot be written as VTU: {0}")]
     Line(#[from] std::io::Error),
 }

@@ -63,7 +63,7 @@ impl Access {
         })
     }
 
-    /// Whether a token is required.
+    /// Returns `true` if a token is required.
     pub fn requires_token(&self) -> bool {
         self.token_sha256.is_some()
     }
@@ -139,7 +139,7 @@ fn token_digest(token: &str) -> Result<[u8; 32], TokenError> {
     Ok(Sha256::digest(token).into())
 }
 
-/// Whether the request has the token. Digests of equal length are compared in constant time, against timing attacks.
+/// Returns `true` if the request has the token. Digests of equal length are compared in constant time, against timing attacks.
 fn has_token(headers: &HeaderMap, digest: &[u8; 32]) -> bool {
     sent_digest(headers).ct_eq(digest).into()
 }
@@ -164,7 +164,7 @@ pub(super) async fn check(State(access): State<Access>, request: Request, next: 
     }
 }
 
-/// Whether a request needs a token for workers instead of that of users.
+/// Returns `true` if a request needs a token for workers instead of that of users.
 pub(super) fn is_for_workers(request: &Request) -> bool {
     request.uri().path().starts_with(WORKER_FOLDER)
 }

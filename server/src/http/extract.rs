@@ -149,7 +149,7 @@ impl<S: Send + Sync> FromRequest<S> for JsonBody {
     }
 }
 
-/// Whether a body is declared as JSON. Forms and plain text are rejected: another site's page can make a browser send
+/// Returns `true` if a body is declared as JSON. Forms and plain text are rejected: another site's page can make a browser send
 /// them.
 fn declared_as_json(headers: &HeaderMap) -> bool {
     let Some(value) = headers.get(header::CONTENT_TYPE) else {

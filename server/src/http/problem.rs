@@ -49,7 +49,7 @@ impl ProblemResponse {
         self
     }
 
-    /// Its document.
+    /// Document.
     pub(super) fn document(self) -> Problem {
         let ProblemType {
             status,

@@ -34,11 +34,11 @@ impl RouteError for DamagedFile {
 /// A file that has been checked.
 #[derive(Debug)]
 pub(super) struct VerifiedFile {
-    /// Its entry.
+    /// Entry.
     pub(super) entry: ResultFile,
-    /// Its content.
+    /// Content.
     pub(super) content: Content,
-    /// Whether its checksum was compared too, not only its length.
+    /// True if its checksum was compared too, not only its length.
     pub(super) is_complete: bool,
 }
 

@@ -62,7 +62,7 @@ impl WorkerRegistry {
         });
     }
 
-    /// Whether a process takes no more jobs.
+    /// Returns `true` if a process takes no more jobs.
     pub(super) fn is_draining(&self, worker: Uuid) -> bool {
         held(&self.draining).contains(&worker)
     }

@@ -27,7 +27,7 @@ const CHUNK_BYTES: usize = 64 << 10;
 pub struct ObjectFile {
     /// Where it is.
     pub source: Source,
-    /// Its length.
+    /// Length.
     pub bytes: u64,
     /// Its SHA-256, hexadecimal.
     pub sha256: String,

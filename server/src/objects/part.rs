@@ -50,7 +50,7 @@ impl ObjectPart {
         self.objects.length(&self.key).await
     }
 
-    /// Its length, bytes.
+    /// Length, bytes.
     pub fn length(&self) -> u64 {
         self.range.end - self.range.start
     }

@@ -46,7 +46,7 @@ pub enum SlurmError {
     Failed {
         /// The program.
         program: &'static str,
-        /// Its standard error.
+        /// Standard error.
         said: String,
     },
     /// A program of it does not answer.

@@ -59,7 +59,7 @@ pub struct Capacity {
     pub slots: usize,
     /// Memory of the worker.
     pub memory: MemoryBudget,
-    /// Whether other workers may have more memory.
+    /// True if other workers may have more memory.
     pub is_one_of_several: bool,
     /// Processor time for each slot up to which jobs below that length are admitted ahead, ms; 0 for none.
     pub ahead_ms: i64,

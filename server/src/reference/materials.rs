@@ -14,7 +14,7 @@ use serde::Deserialize;
 /// A material of the library.
 #[derive(Debug, Clone, Deserialize)]
 pub(crate) struct LibraryMaterial {
-    /// Its properties, the name included, as written in a resolved specification.
+    /// Properties, the name included, as written in a resolved specification.
     #[serde(flatten)]
     pub(crate) properties: MaterialProperties,
     /// Provenance of the hardness.

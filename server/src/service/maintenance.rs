@@ -149,7 +149,7 @@ async fn round(
     if let Some(days) = keep_days
         && let Err(error) = delete_old(store, days).await
     {
-        // What was reclaimed goes on all the same.
+        // What was reclaimed continues all the same.
         tracing::error!(%error, "old jobs could not be deleted");
     }
     Ok(reclaimed)

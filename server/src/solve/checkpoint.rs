@@ -37,7 +37,7 @@ pub enum CheckpointError {
     /// It was written by another version of the program.
     #[error("it has format {found}, this is format {FORMAT}")]
     Format {
-        /// Its format number.
+        /// Format number.
         found: u32,
     },
     /// It is truncated or damaged.
@@ -85,12 +85,12 @@ impl CheckpointPolicy {
         }
     }
 
-    /// Whether the run is asked to stop.
+    /// Returns `true` if the run is asked to stop.
     pub(super) fn is_stopped(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// Whether a checkpoint is due; if so, the next interval starts.
+    /// Returns `true` if a checkpoint is due; if so, the next interval starts.
     pub(super) fn is_due(&self) -> bool {
         let Some((interval, last)) = &self.interval else {
             return false;

@@ -66,7 +66,7 @@ pub(crate) struct SolveCommand<'a> {
     pub(crate) memory_limit_mb: Option<i64>,
     /// The process waits while the disk of the folder is full; otherwise it ends.
     pub(crate) waits_for_disk: bool,
-    /// Whether it gets a process group of its own; otherwise the signals of a terminal reach it too.
+    /// True if it gets a process group of its own; otherwise the signals of a terminal reach it too.
     pub(crate) own_group: bool,
 }
 
@@ -86,7 +86,7 @@ pub(crate) struct SolveProcess {
 pub(crate) struct ReceivedLine {
     /// The line.
     pub(crate) line: Line,
-    /// Its length.
+    /// Length.
     pub(crate) bytes: usize,
 }
 
@@ -124,7 +124,7 @@ pub(crate) struct Exit {
 }
 
 impl Exit {
-    /// Whether the process reported a failed allocation.
+    /// Returns `true` if the process reported a failed allocation.
     pub(crate) fn is_out_of_memory(&self) -> bool {
         self.stderr.starts_with(FAILED_ALLOCATION)
     }

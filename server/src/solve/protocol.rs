@@ -59,7 +59,7 @@ pub enum Line {
 }
 
 impl Line {
-    /// Whether it is the last line of a run.
+    /// Returns `true` if it is the last line of a run.
     pub(crate) fn is_last(&self) -> bool {
         matches!(self, Self::Summary(_) | Self::Failed(_) | Self::Stopped)
     }

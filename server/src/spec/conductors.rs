@@ -49,7 +49,7 @@ pub(super) fn resolve(
     );
     let temperature = filled.environment.temperature_c.unwrap_or(REFERENCE_C);
     let (mut lacks, mut unknown) = (Vec::new(), None);
-    // The model gives a contact of finite extent its width.
+    // The model gives a contact of finite width its width.
     let has_width = filled.model.as_ref().is_some_and(Model::has_width);
     let force = filled.load.as_ref().and_then(|load| {
         let width = if has_width { Some(1.0) } else { load.width_mm };
@@ -126,7 +126,7 @@ pub(super) fn resolve(
     Conductors { conduction, lacks }
 }
 
-/// Whether something of the specification is about the resistance alone.
+/// Returns `true` if something of the specification is about the resistance alone.
 fn is_asked_for(filled: &Spec) -> bool {
     let is_resistance = |kind: &EnumValue<CriterionKind>| {
         matches!(kind, EnumValue::Known(CriterionKind::Resistance))

@@ -1,4 +1,4 @@
-//! What covers each part: the layers of the specification, those of its preset, or none.
+//! The plating of each part: the layers of the specification, those of its preset, or none.
 //!
 //! A part has its preset's plating unless the specification gives its plating; an empty list is a bare part. A material and a wear law
 //! of a part are those of the base below the plating. A wear law of `null` without a given plating says that the part does not
@@ -26,7 +26,7 @@ pub(super) enum Covering<'a> {
 }
 
 impl Covering<'_> {
-    /// Whether there are layers.
+    /// Returns `true` if there are layers.
     pub(super) fn is_plated(&self) -> bool {
         matches!(self, Self::Given(_) | Self::Preset(_))
     }

@@ -34,7 +34,7 @@ pub(super) enum Modelled {
 }
 
 impl Modelled {
-    /// Those of depths, and the limits of those of resistances.
+    /// Criteria of depths, and the limits of criteria of resistance.
     pub(super) fn apart(all: impl IntoIterator<Item = Self>) -> (Vec<scene::Criterion>, Vec<f64>) {
         let (mut depths, mut limits) = (Vec::new(), Vec::new());
         for modelled in all {

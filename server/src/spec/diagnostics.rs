@@ -242,7 +242,7 @@ impl Diagnostics {
             .extend(provenance.map(|(pointer, provenance)| (here(pointer), provenance)));
     }
 
-    /// Whether there is no fault so far.
+    /// Returns `true` if there is no fault so far.
     pub(crate) fn is_clean(&self) -> bool {
         self.faults.is_empty()
     }

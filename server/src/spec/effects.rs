@@ -85,7 +85,7 @@ pub(crate) fn check(
     diagnostics.fault(&cause(), detail);
 }
 
-/// Whether the strains of the contact are within the range of small-strain theory, or accepted by `off`.
+/// Returns `true` if the strains of the contact are within the range of small-strain theory, or accepted by `off`.
 pub(crate) fn has_small_strains(given: &Given, scene: &Scene) -> bool {
     let accepted = switch(given, Effect::GeometricNonlinearity) == Some(Switch::Off);
     accepted || small_strain::cost(scene) <= small_strain::limit(scene)

@@ -31,12 +31,12 @@ pub(super) enum Resolved {
     Line(Line),
     /// Extruded bodies.
     Extruded(Extruded),
-    /// What a slider of this width calls for.
+    /// What a slider of this width requires.
     Auto(Line),
 }
 
 impl Resolved {
-    /// Whether a force needs no width.
+    /// Returns `true` if a force needs no width.
     pub(super) fn has_width(&self) -> bool {
         *self != Self::PlaneStrain
     }

@@ -1,4 +1,4 @@
-//! What moves the contact: one motion for a number of cycles, or a mission.
+//! The motion of the contact: one for a number of cycles, or a mission.
 
 use api::spec::{DerivedMotion, MissionBlock, MissionOrder, Motion};
 use solver::scene;
@@ -16,7 +16,7 @@ pub(super) struct Movement {
     pub(super) drive: scene::Drive,
     /// The motion of the scene, its blocks if there are several, and its cycles.
     pub(super) scene: scene::Motion,
-    /// Its course in time.
+    /// Course in time.
     pub(super) timing: scene::Timing,
     pub(super) blocks: Option<scene::Mission>,
     pub(super) total_cycles: u64,

@@ -36,7 +36,7 @@ pub(crate) struct RatedMatings {
 }
 
 impl RatedMatings {
-    /// That of a contact, with the wipe of its motion if that is a mating; `None` for a kind without a rating, and where the
+    /// Rated matings of a contact, with the wipe of its motion if that is a mating; `None` for a kind without a rating, and where the
     /// slider's surface runs past.
     pub(crate) fn of(kind: SystemKind, motion: Option<&Motion>, scene: &Scene) -> Option<Self> {
         let RatingPreset {

@@ -31,7 +31,7 @@ pub(crate) struct Ratios {
 }
 
 impl Ratios {
-    /// Those of lives in inverse proportion to the coefficients.
+    /// Ratios of lives in inverse proportion to the coefficients.
     pub(crate) fn of(settings: &LifeSettings) -> Self {
         let variation = settings.coefficient_of_variation.unwrap_or_default();
         let contacts = settings.contacts.unwrap_or(1);

@@ -7,7 +7,7 @@ use api::spec::Provenance;
 pub(crate) struct Sourced<T> {
     /// The value.
     pub(crate) value: T,
-    /// Its provenance.
+    /// Provenance.
     pub(crate) provenance: Provenance,
 }
 

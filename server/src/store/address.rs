@@ -18,7 +18,7 @@ pub fn shown_address(url: &str) -> String {
     }
 }
 
-/// Whether an address is that of a PostgreSQL database.
+/// Returns `true` if an address is that of a PostgreSQL database.
 pub(in crate::store) fn is_postgres(url: &str) -> bool {
     let scheme = url.split_once(':').map_or("", |(scheme, _)| scheme);
     scheme.eq_ignore_ascii_case("postgres") || scheme.eq_ignore_ascii_case("postgresql")

@@ -75,6 +75,6 @@ pub struct CopySummary {
     pub unread: Vec<String>,
     /// Those that are not here: in the folder of another machine, or of the original of a copy.
     pub elsewhere: Vec<String>,
-    /// Whether so many in succession could not be read that the others were not tried.
+    /// True if so many in succession could not be read that the others were not tried.
     pub has_ended_early: bool,
 }

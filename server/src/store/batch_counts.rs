@@ -6,9 +6,9 @@ use std::time::{Duration, Instant};
 
 use uuid::Uuid;
 
-/// Batches with no more jobs are counted anew each time, also where a busy machine takes long for it.
+/// Batches with no more jobs are counted again each time, also where a busy machine takes long for it.
 const SMALL: u64 = 10_000;
-/// A count that takes no longer is made anew each time.
+/// A count that takes no longer is made again each time.
 const QUICK: Duration = Duration::from_millis(20);
 /// How many times as long as it took a count is kept: counting takes a twentieth of a processor at most.
 const KEPT_TIMES: u32 = 20;

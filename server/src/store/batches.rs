@@ -51,7 +51,7 @@ pub struct NewBatch {
     pub name: Option<String>,
     /// The base specification as it was sent, JSON.
     pub base: String,
-    /// Its jobs in order, or the first of them.
+    /// Jobs in order, or the first of them.
     pub jobs: Vec<NewBatchJob>,
     /// Evaluation plan, JSON.
     pub plan: Option<String>,
@@ -62,11 +62,11 @@ pub struct NewBatch {
 /// A job of a batch to be queued.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NewBatchJob {
-    /// Its number in the batch, from 0.
+    /// Number in the batch, from 0.
     pub position: u64,
     /// The job.
     pub job: NewJob,
-    /// Its changes against the base specification.
+    /// Changes against the base specification.
     pub overrides: Changes,
 }
 
@@ -123,9 +123,9 @@ impl Portion {
 /// A combination of changes that makes no valid job.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RefusedJob {
-    /// Its number in the batch, from 0.
+    /// Number in the batch, from 0.
     pub position: u64,
-    /// Its changes against the base specification.
+    /// Changes against the base specification.
     pub overrides: Changes,
     /// Why.
     pub reason: String,
@@ -134,7 +134,7 @@ pub struct RefusedJob {
 /// A batch without its jobs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BatchOverview {
-    /// Its id.
+    /// Id.
     pub id: Uuid,
     /// Name for people.
     pub name: Option<String>,
@@ -172,19 +172,19 @@ pub struct StoredBatch {
 pub struct BatchJob {
     /// The job's id.
     pub id: Uuid,
-    /// Its number in the batch, from 0.
+    /// Number in the batch, from 0.
     pub position: u64,
-    /// Its changes against the base specification.
+    /// Changes against the base specification.
     pub overrides: Changes,
-    /// Its status.
+    /// Status.
     pub status: Status,
     /// Reason for the status.
     pub status_reason: Option<String>,
     /// How its solve ended.
     pub outcome: Option<Outcome>,
-    /// Its summary; absent below [`BatchDetail::Summaries`].
+    /// Summary; absent below [`BatchDetail::Summaries`].
     pub summary: Option<Summary>,
-    /// Its last profile, JSON; absent below [`BatchDetail::Profiles`], and where there is no summary.
+    /// Last profile, JSON; absent below [`BatchDetail::Profiles`], and where there is no summary.
     pub profile: Option<String>,
 }
 

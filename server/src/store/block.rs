@@ -71,7 +71,7 @@ pub struct EncodedBlock {
     pub(in crate::store) content: Vec<u8>,
     /// Names of its documents.
     pub(in crate::store) documents: Vec<String>,
-    /// Whether history and snapshots are part of it.
+    /// True if history and snapshots are part of it.
     pub(in crate::store) has_history: bool,
 }
 
@@ -107,7 +107,7 @@ pub enum BlockError {
     /// The names of its documents are others.
     #[error("its documents are not those that it lists")]
     Documents,
-    /// Its history or its snapshots are damaged.
+    /// History or its snapshots are damaged.
     #[error("{what}: {cause}")]
     Damaged {
         /// The entry.

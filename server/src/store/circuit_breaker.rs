@@ -69,7 +69,7 @@ impl Store {
     }
 }
 
-/// Whether an error is one of the store of objects, or of which store it is.
+/// Returns `true` if an error is one of the store of objects, or of which store it is.
 fn is_of_objects(error: &StoreError) -> bool {
     match error {
         StoreError::OtherObjects { .. } => true,

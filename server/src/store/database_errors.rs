@@ -56,7 +56,7 @@ impl StoreError {
     }
 }
 
-/// Whether a file is no SQLite database.
+/// Returns `true` if a file is no SQLite database.
 pub(in crate::store) fn is_no_database(error: &sqlx::Error) -> bool {
     state(error).is_none() && result_code(error) == Some(NO_DATABASE)
 }

@@ -50,7 +50,7 @@ impl DataDisk {
         disk
     }
 
-    /// Whether a write failed because the disk was full, and there is no space since.
+    /// Returns `true` if a write failed because the disk was full, and there is no space since.
     pub fn is_full(&self) -> bool {
         !self.is_reserved.load(Ordering::Acquire)
     }

@@ -83,7 +83,7 @@ pub enum StoreError {
         "the linked SQLite is {found}, at least {oldest} is needed: older ones can corrupt the log when it is reset"
     )]
     OldSqlite {
-        /// Its version.
+        /// Version.
         found: String,
         /// The oldest accepted version.
         oldest: &'static str,
@@ -105,7 +105,7 @@ pub enum StoreError {
     /// The PostgreSQL server is too old.
     #[error("the PostgreSQL server has version {found}, at least {oldest} is needed")]
     OldServer {
-        /// Its version.
+        /// Version.
         found: i64,
         /// The oldest accepted version.
         oldest: i64,
@@ -122,9 +122,9 @@ pub enum StoreError {
         /// The engine's error.
         #[source]
         cause: Box<dyn Error + Send + Sync>,
-        /// Whether a retry may succeed.
+        /// True if a retry may succeed.
         is_transient: bool,
-        /// Whether the disk of the database is full.
+        /// True if the disk of the database is full.
         is_disk_full: bool,
     },
     /// The file of the database is not at its path any more: whatever is written is lost with the process.
@@ -190,7 +190,7 @@ pub enum StoreError {
 }
 
 impl StoreError {
-    /// Whether a retry may succeed: the database is busy, or its disk is full.
+    /// Returns `true` if a retry may succeed: the database is busy, or its disk is full.
     pub fn is_transient(&self) -> bool {
         match self {
             Self::Unwritten | Self::NoAnswer(_) => true,
@@ -199,7 +199,7 @@ impl StoreError {
         }
     }
 
-    /// Whether the disk of the database is full.
+    /// Returns `true` if the disk of the database is full.
     pub fn is_disk_full(&self) -> bool {
         match self {
             Self::Database { is_disk_full, .. } => *is_disk_full,

@@ -27,7 +27,7 @@ pub(in crate::store) fn with_summary(
     Ok(StoredEvent { seq, name, data })
 }
 
-/// Whether the stored events after one are all: numbers have no gaps, so that those before were moved to an object.
+/// Returns `true` if the stored events after one are all: numbers have no gaps, so that those before were moved to an object.
 pub(in crate::store) fn is_whole(stored: &[StoredEvent], after: i64) -> bool {
     stored.first().is_none_or(|first| first.seq == after + 1)
 }

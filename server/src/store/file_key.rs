@@ -5,7 +5,7 @@ use uuid::Uuid;
 /// What keys begin with.
 const PREFIX: &str = "files/";
 
-/// Whether a key is that of a file of a job.
+/// Returns `true` if a key is that of a file of a job.
 pub(in crate::store) fn is_of_job(key: &str, job: Uuid) -> bool {
     let name = key.strip_prefix(PREFIX);
     let name = name.and_then(|name| name.strip_prefix(&job.to_string()));

@@ -69,7 +69,7 @@ fn large(bytes: u64, error: StoreError) -> StoreError {
 }
 
 impl Store {
-    /// Whether files of attempts are objects.
+    /// Returns `true` if files of attempts are objects.
     pub fn has_files_as_objects(&self) -> bool {
         self.objects_of_files().is_some()
     }

@@ -90,12 +90,12 @@ impl Folder {
         Ok(removed)
     }
 
-    /// Whether it is there: as long as no job has files it is not, and neither while the disk that it is on is not mounted.
+    /// Returns `true` if it is there: as long as no job has files it is not, and neither while the disk that it is on is not mounted.
     pub(in crate::store) fn exists(&self) -> bool {
         self.root.is_dir()
     }
 
-    /// Whether a job may have files.
+    /// Returns `true` if a job may have files.
     pub(in crate::store) fn has(&self, id: Uuid) -> bool {
         self.root.join(id.to_string()).exists()
     }

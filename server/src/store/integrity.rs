@@ -19,7 +19,7 @@ pub enum IntegrityError {
     /// The file does not exist.
     #[error("it does not exist")]
     Missing,
-    /// Its length differs.
+    /// Length differs.
     #[error("it has {found} bytes, its manifest names {named}")]
     Length {
         /// The length, bytes.
@@ -27,7 +27,7 @@ pub enum IntegrityError {
         /// The length in the manifest, bytes.
         named: u64,
     },
-    /// Its content differs.
+    /// Content differs.
     #[error("it has the SHA-256 {found}, its manifest names {named}")]
     Checksum {
         /// SHA-256 of the content, hexadecimal.
@@ -41,7 +41,7 @@ pub enum IntegrityError {
 }
 
 impl IntegrityError {
-    /// Whether the content is damaged, and not only unreadable at present or for this process.
+    /// Returns `true` if the content is damaged, and not only unreadable at present or for this process.
     pub fn is_damage(&self) -> bool {
         !matches!(self, Self::Read(_))
     }

@@ -14,7 +14,7 @@ pub struct NewJob {
     pub sent: String,
     /// The resolved specification.
     pub spec: Spec,
-    /// Its plan.
+    /// Plan.
     pub plan: Plan,
     /// Priority and deadline.
     pub options: SubmitOptions,
@@ -36,7 +36,7 @@ pub struct StoredJob {
     pub document: Job,
     /// Version of the stored document, raised by every change.
     pub version: i64,
-    /// Whether its status reason is not the stored one, because it waits for disk space.
+    /// True if its status reason is not the stored one, because it waits for disk space.
     pub waits_for_disk: bool,
     /// Number of its newest event.
     pub last_event: i64,

@@ -19,7 +19,7 @@ use crate::store::block::EncodedBlock;
 pub struct ClaimRequest {
     /// Who asks, and the number of the request, from 1: one that is repeated, because its answer was lost, gets the same jobs again.
     pub request: RequestNumber,
-    /// Whether the worker is another process, which lives on when the service ends.
+    /// True if the worker is another process, which lives on when the service ends.
     pub is_remote: bool,
     /// What it can take.
     pub capacity: Capacity,
@@ -108,13 +108,13 @@ pub enum ClaimedCheckpoint {
     Given(EncodedCheckpoint),
     /// It is in the store of objects, and is to be asked for.
     Stored {
-        /// Its cycle.
+        /// Cycle.
         cycle: u64,
     },
 }
 
 impl ClaimedCheckpoint {
-    /// Its cycle.
+    /// Cycle.
     pub fn cycle(&self) -> u64 {
         match self {
             Self::Given(checkpoint) => checkpoint.cycle,
@@ -177,14 +177,14 @@ const SMALL_BLOCK: usize = 64 * 1024;
 const FEW_ROWS: usize = 64;
 
 impl JobUpdate {
-    /// Its files, the largest first: one that the store of objects does not take keeps the others from being sent again and again.
+    /// Files, the largest first: one that the store of objects does not take keeps the others from being sent again and again.
     pub(crate) fn largest_files_first(&mut self) -> Vec<&mut NewFile> {
         let mut files: Vec<_> = self.files.iter_mut().collect();
         files.sort_by_key(|file| Reverse(file.file.bytes));
         files
     }
 
-    /// Whether it is written together with others: it has a few rows and events, and no more than a small block of results.
+    /// Returns `true` if it is written together with others: it has a few rows and events, and no more than a small block of results.
     pub(crate) fn is_small(&self) -> bool {
         let block = self.block.as_ref();
         let bytes = block.map_or(0, |block| block.entries.len() + block.content.len());
@@ -205,7 +205,7 @@ pub enum EventName {
 }
 
 impl EventName {
-    /// Its name in the stream.
+    /// Name in the stream.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Progress => "progress",
@@ -228,7 +228,7 @@ pub enum LeaseState {
 }
 
 impl LeaseState {
-    /// That of a held job, by whether its end was requested; lost without one.
+    /// State of a held job, by whether its end was requested; lost without one.
     pub(in crate::store) fn of(cancel_requested: Option<bool>) -> Self {
         cancel_requested.map_or(Self::Lost, |cancel_requested| Self::Held {
             cancel_requested,

@@ -54,7 +54,7 @@ pub(in crate::store) struct Local {
     pub(in crate::store) last_moved: Mutex<Uuid>,
     /// Whether results were found whose files are in the folder of another service.
     pub(in crate::store) has_unseen_files: AtomicBool,
-    /// Whether those that no job names are removed.
+    /// True if those that no job names are removed.
     pub(in crate::store) removes_objects: bool,
     /// Memory for files that are written there, MB.
     pub(in crate::store) file_writes: Semaphore,

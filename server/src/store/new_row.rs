@@ -25,7 +25,7 @@ pub(in crate::store) struct NewRow {
 }
 
 impl NewRow {
-    /// That of a job that is queued now, under an id.
+    /// Row of a job that is queued now, under an id.
     pub(in crate::store) fn of(job: &NewJob, id: Uuid, now: Now) -> Result<Self, StoreError> {
         let Now {
             system_ms,

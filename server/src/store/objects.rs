@@ -27,7 +27,7 @@ const READ: usize = 32;
 const WRITES: usize = 32;
 /// Longest wait for the store of objects at the start.
 const LONGEST_TEST: Duration = Duration::from_secs(5);
-/// Those of them that have files, whose parts are in memory; one alone where files are in rows.
+/// Largest number of jobs with files that are written at once: their parts are in memory; one alone where files are in rows.
 const LARGE_WRITES: usize = 4;
 
 impl Store {
@@ -290,7 +290,7 @@ impl Store {
         Ok(found)
     }
 
-    /// Whether a file that is missing is lost: the folder may not be mounted, or may be that of another service.
+    /// Returns `true` if a file that is missing is lost: the folder may not be mounted, or may be that of another service.
     fn has_folders_of(&self, files: &[ObjectFile]) -> bool {
         let has_folder = |file: &ObjectFile| match &file.source {
             Source::File(path) if self.is_shared() => path.parent().is_some_and(Path::is_dir),

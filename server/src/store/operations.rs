@@ -224,7 +224,7 @@ impl Store {
         &self.local().metrics
     }
 
-    /// Whether several processes may serve the database.
+    /// Returns `true` if several processes may serve the database.
     pub fn is_shared(&self) -> bool {
         matches!(self.0, Engine::Postgres(_))
     }

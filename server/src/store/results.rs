@@ -22,20 +22,20 @@ const CHUNK_BYTES: usize = 64 << 10;
 /// A stored event.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StoredEvent {
-    /// Its number within the job, from 1 without gaps.
+    /// Number within the job, from 1 without gaps.
     pub seq: i64,
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its document, JSON.
+    /// Document, JSON.
     pub data: String,
 }
 
 /// A file to be added to a manifest.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NewFile {
-    /// Its entry in the manifest.
+    /// Entry in the manifest.
     pub file: ResultFile,
-    /// Its content.
+    /// Content.
     pub content: NewContent,
 }
 
@@ -54,10 +54,10 @@ pub enum NewContent {
 /// Why a content cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ContentError {
-    /// Its file.
+    /// File.
     #[error(transparent)]
     File(#[from] io::Error),
-    /// Its object.
+    /// Object.
     #[error(transparent)]
     Object(#[from] ObjectsError),
 }

@@ -30,7 +30,7 @@ pub(in crate::store) struct StoredObject {
 }
 
 impl StoredObject {
-    /// Its key, and how many bytes of it are the content.
+    /// Key, and how many bytes of it are the content.
     pub(in crate::store) fn content(&self) -> (String, u64) {
         (self.key.clone(), self.content_bytes)
     }
@@ -52,7 +52,7 @@ impl StoredObject {
 }
 
 impl StoredBlock {
-    /// That of the columns of a row.
+    /// Block of the columns of a row.
     pub(in crate::store) fn new(
         entries: Vec<u8>,
         content: Vec<u8>,

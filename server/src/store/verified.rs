@@ -1,4 +1,4 @@
-//! What a database names, as it is verified. Each engine has the SQL.
+//! Names in a database, as it is verified. Each engine has the SQL.
 
 use api::results::ResultFile;
 use uuid::Uuid;
@@ -37,7 +37,7 @@ impl From<(Vec<u8>, Vec<u8>, Option<String>)> for CheckpointRow {
 
 /// A database whose results are verified, which may be in use.
 pub(in crate::store) trait Verified {
-    /// Whether machines with other folders serve it.
+    /// True if machines with other folders serve it.
     const HAS_SEVERAL_FOLDERS: bool;
 
     /// Ids of all jobs.
@@ -74,7 +74,7 @@ pub(in crate::store) trait Verified {
 }
 
 impl FileRow {
-    /// Whether another row is of the same content at the same place.
+    /// Returns `true` if another row is of the same content at the same place.
     pub(in crate::store) fn is_same(&self, other: &Self) -> bool {
         let of = |row: &Self| (row.entry.name.clone(), row.entry.sha256.clone());
         of(self) == of(other) && (&self.place, &self.object) == (&other.place, &other.object)

@@ -14,7 +14,7 @@ use crate::store::integrity::Checksum;
 pub(in crate::store) enum Found {
     /// It was compared with its checksum; how it is damaged.
     Compared(Option<String>),
-    /// Its object is missing.
+    /// Object is missing.
     Missing(String),
     /// It was deleted or replaced meanwhile.
     Gone,

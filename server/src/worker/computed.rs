@@ -1,4 +1,4 @@
-//! What a run has computed, as the documents of its job are made of it; an attempt collects it, so that it makes them itself.
+//! Results of a run, from which the documents of its job are made; an attempt collects them, so that it makes the documents itself.
 
 use api::results::Snapshot;
 use solver::record::CycleReport;

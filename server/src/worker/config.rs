@@ -39,7 +39,7 @@ pub struct WorkerConfig {
     pub update_every: Duration,
     /// Processor time up to which a worker claims short jobs ahead; 0 for none.
     pub ahead: Duration,
-    /// Whether a worker ends when no job waits or runs.
+    /// True if a worker ends when no job waits or runs.
     pub until_idle: bool,
     /// Time between two checkpoints of a solving process.
     pub checkpoint_every: Duration,

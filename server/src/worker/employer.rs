@@ -30,7 +30,7 @@ pub enum EmployerError {
 }
 
 impl EmployerError {
-    /// Whether the same request may succeed later.
+    /// Returns `true` if the same request may succeed later.
     pub(super) fn is_temporary(&self) -> bool {
         match self {
             Self::Store(StoreError::Objects(ObjectsError::Damaged { .. })) => false,
@@ -51,7 +51,7 @@ impl EmployerError {
         }
     }
 
-    /// Whether the employer does not accept this worker.
+    /// Returns `true` if the employer does not accept this worker.
     pub(super) fn is_rejected(&self) -> bool {
         match self {
             Self::Store(_) => false,
@@ -59,7 +59,7 @@ impl EmployerError {
         }
     }
 
-    /// Whether the employer gives this worker no more jobs.
+    /// Returns `true` if the employer gives this worker no more jobs.
     pub(super) fn is_drained(&self) -> bool {
         match self {
             Self::Store(_) => false,
@@ -67,7 +67,7 @@ impl EmployerError {
         }
     }
 
-    /// Whether the store of objects takes no file that only it can have.
+    /// Returns `true` if the store of objects takes no file that only it can have.
     pub(super) fn is_without_objects(&self) -> bool {
         match self {
             Self::Store(error) => matches!(error, StoreError::Objects(_)),
@@ -75,7 +75,7 @@ impl EmployerError {
         }
     }
 
-    /// Whether the disk of the database is full: nothing more can be recorded, but jobs can be cancelled.
+    /// Returns `true` if the disk of the database is full: nothing more can be recorded, but jobs can be cancelled.
     pub(super) fn is_disk_full(&self) -> bool {
         match self {
             Self::Store(error) => error.is_disk_full(),

@@ -1,4 +1,4 @@
-//! What the workers of one process share: the numbers of their requests, and the memory of their solves.
+//! State that the workers of one process share: the numbers of their requests, and the memory of their solves.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -91,7 +91,7 @@ impl WorkerProcess {
         }
     }
 
-    /// Its id, new with each start.
+    /// Id, new with each start.
     pub fn id(&self) -> Uuid {
         self.id
     }

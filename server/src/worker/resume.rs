@@ -92,7 +92,7 @@ async fn stored<'a, E: Employer>(
     })
 }
 
-/// That of a worker that is asked to stop.
+/// End of an attempt whose worker is asked to stop.
 fn stopped<'a>() -> Start<'a> {
     let end = End::without_result(Transition::Release, STOPPED);
     Start::Never(Box::new(end))

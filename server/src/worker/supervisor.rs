@@ -218,7 +218,7 @@ impl<E: Employer> Supervision<'_, E> {
         }
     }
 
-    /// Whether the user cancelled the job while nothing could be stored because the disk is full, or no large file. The state of the lease
+    /// Returns `true` if the user cancelled the job while nothing could be stored because the disk is full, or no large file. The state of the lease
     /// can be read all the same; after another error the next write returns it.
     async fn is_cancelled_meanwhile(&self, error: &EmployerError) -> bool {
         let cancelled = LeaseState::Held {

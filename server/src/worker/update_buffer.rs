@@ -46,7 +46,7 @@ pub(super) struct UpdateBuffer {
     started: Instant,
     remaining: RemainingTime,
     last_event: Option<(Instant, f64)>,
-    /// Whether the last event was in the phase of the companions, which has no cycles and so no progress.
+    /// True if the last event was in the phase of the companions, which has no cycles and so no progress.
     in_companions: bool,
 }
 
@@ -143,12 +143,12 @@ impl UpdateBuffer {
         }
     }
 
-    /// Whether there is something to write.
+    /// Returns `true` if there is something to write.
     pub(super) fn is_dirty(&self) -> bool {
         self.bytes > 0 || self.unrecorded.is_some()
     }
 
-    /// Whether a limit is reached, so that the update should be written at once.
+    /// Returns `true` if a limit is reached, so that the update should be written at once.
     pub(super) fn is_full(&self) -> bool {
         let bytes = match self.unrecorded {
             Some(_) => self.bytes.saturating_add(self.taken_bytes),

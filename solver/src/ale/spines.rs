@@ -11,7 +11,7 @@ pub(crate) const WORN_THROUGH_SHARE: f64 = 0.03;
 pub struct Spines(Sides<Vec<f64>>);
 
 impl Spines {
-    /// Those of a model.
+    /// Spines of a model.
     pub fn of(model: &Model) -> Self {
         let lengths = |body: &BodyModel| {
             let length = |x: &f64| (body.layout.far_y - body.layout.profile.height(*x)).abs();
@@ -25,7 +25,7 @@ impl Spines {
         self.0.as_slices()
     }
 
-    /// Whether a body is nearly consumed somewhere at these worn depths, mm.
+    /// Returns `true` if a body is nearly consumed somewhere at these worn depths, mm.
     pub fn are_worn_through(&self, depth: &Sides<Vec<f64>>) -> bool {
         Side::BOTH.into_iter().any(|side| {
             let spines = self.0.of(side).iter().zip(depth.of(side));

@@ -1,4 +1,4 @@
-//! What a computed cycle of sections along a line records besides its state: contacts at named positions and the friction loop.
+//! Record of a computed cycle of sections along a line besides its state: contacts at named positions and the friction loop.
 
 use crate::contact::ContactState;
 use crate::cycle::{FrictionLoop, Neutral};

@@ -1,4 +1,4 @@
-//! What error control knows from the runs of a scene before the present one.
+//! Earlier runs of a scene, as error control compares them with the present one.
 
 use serde::{Deserialize, Serialize};
 
@@ -18,7 +18,7 @@ pub struct Earlier {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Finished {
     pub(super) summary: Summary,
-    /// Those of its last report, which are not stored with it.
+    /// Ideal areas of its last report, which are not stored with it.
     ideal_area_mm2: Sides<Option<f64>>,
 }
 

@@ -1,5 +1,5 @@
-//! Checkpoints of the run of a contact of finite extent across the sliding direction: what is computed from its state, operators among it,
-//! is computed anew.
+//! Checkpoints of the run of a contact of finite width: what is computed from its state, operators among it,
+//! is computed again.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,12 +11,12 @@ use crate::point::PointState;
 use crate::record::{Compared, Initial, Life};
 use crate::station::LineState;
 
-/// A run of a contact of finite extent between two computed cycles.
+/// A run of a contact of finite width between two computed cycles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FiniteRun<S> {
     pub(crate) state: S,
     pub(crate) initial: Initial,
-    /// Skipped effects that the run has called for.
+    /// Skipped effects that the run has required.
     pub(crate) crossings: Vec<Crossing>,
     /// Histories that the run's error is estimated by.
     pub(crate) compared: Compared,

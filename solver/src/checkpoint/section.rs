@@ -30,7 +30,7 @@ pub struct SectionRun {
     pub(crate) relocations: u64,
     /// Factor by which zones of fine elements are wider than the scene's.
     pub(crate) widened: f64,
-    /// Skipped effects that the run has called for.
+    /// Skipped effects that the run has required.
     pub(crate) crossings: Vec<Crossing>,
     /// Histories that the run's error is estimated by.
     pub(crate) compared: Compared,
@@ -69,7 +69,7 @@ impl SectionRun {
         self.mission.as_ref().and_then(|mission| mission.left)
     }
 
-    /// Whether the present block of its mission is done.
+    /// Returns `true` if the present block of its mission is done.
     pub(crate) fn is_block_done(&self) -> bool {
         let mission = self.mission.as_ref();
         mission.is_some_and(|mission| mission.is_block_done(&self.state))
@@ -82,7 +82,7 @@ impl SectionRun {
         }
     }
 
-    /// Whether the state can be compared with that of another run after as many cycles: one that takes other rounds of a
+    /// Returns `true` if the state can be compared with that of another run after as many cycles: one that takes other rounds of a
     /// mission together has worn its blocks in another order before they are whole.
     pub(crate) fn is_comparable(&self, scene: &Scene) -> bool {
         let (mission, repeated) = (self.mission.as_ref(), scene.mission.as_ref());

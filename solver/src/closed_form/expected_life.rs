@@ -56,7 +56,7 @@ struct Contact<'a> {
 struct Stroke {
     /// mm.
     amplitude: f64,
-    /// Its part of the path, -.
+    /// Part of the path, -.
     share: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What a run is expected to wear, by closed forms: its rates, its cycles, the depths and the contact at its end.
+//! Expected wear of a run by closed forms: its rates, its cycles, the depths and the contact at its end.
 
 use super::line_contact;
 use super::unworn_contact::{hertz_half_width, radius};

@@ -1,4 +1,4 @@
-//! What a run of a point contact is computed from.
+//! Input of a run of a point contact.
 
 use super::hertz;
 use crate::law::elastic::{Elastic, Lame, contact_modulus};
@@ -21,7 +21,7 @@ pub struct PointBody {
     pub radius_along_mm: Option<f64>,
     /// Radius in the plane across it, mm; `None` is straight.
     pub radius_across_mm: Option<f64>,
-    /// Its elastic constants.
+    /// Elastic constants.
     pub elastic: Elastic,
     /// Wear of its surface by the dose, with its layers; `None` does not wear.
     pub wear: Option<SurfaceWear>,
@@ -238,7 +238,7 @@ impl PointScene {
         self.bodies.slider.curvature().0 / self.curvature().0
     }
 
-    /// Whether a part of the contact may stick: the amplitude is small against the contact.
+    /// Returns `true` if a part of the contact may stick: the amplitude is small against the contact.
     pub fn may_stick(&self) -> bool {
         self.amplitude_mm.abs() <= LARGEST_PARTIAL * self.half_lengths_mm().0
     }

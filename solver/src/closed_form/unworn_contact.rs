@@ -96,7 +96,7 @@ pub(crate) fn gross_slip(scene: &Scene, half_width: f64) -> f64 {
     scene.largest_friction() * scene.load_n_per_mm * (upper + lower)
 }
 
-/// Whether part of the contact may stick through the whole stroke: the amplitude is below twice the displacement of
+/// Returns `true` if part of the contact may stick through the whole stroke: the amplitude is below twice the displacement of
 /// gross slip.
 pub(crate) fn sticks(scene: &Scene, half_width: f64) -> bool {
     let amplitude_mm = match scene.motion {

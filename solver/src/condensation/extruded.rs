@@ -46,7 +46,7 @@ pub struct PrismZone {
 }
 
 impl PrismZone {
-    /// Its contact nodes in each section.
+    /// Contact nodes in each section.
     pub fn nodes(&self) -> Range<usize> {
         self.first..self.first + self.nodes
     }

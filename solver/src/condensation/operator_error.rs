@@ -10,7 +10,7 @@ pub enum OperatorError {
     Inverted {
         /// Which body.
         body: &'static str,
-        /// Its number, columns first.
+        /// Number, columns first.
         element: usize,
     },
     /// The stiffness matrix cannot be factored.

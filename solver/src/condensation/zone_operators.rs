@@ -31,7 +31,7 @@ impl ZoneOperators {
         }
     }
 
-    /// Its contact nodes.
+    /// Contact nodes.
     pub fn nodes(&self) -> Range<usize> {
         self.first..self.first + self.compliance.nodes()
     }

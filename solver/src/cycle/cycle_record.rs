@@ -14,7 +14,7 @@ pub struct Neutral {
     pub peak_pressure: f64,
     /// Half-width of the contact, mm.
     pub half_width: f64,
-    /// Its middle, mm.
+    /// Middle, mm.
     pub middle: f64,
     /// Mean coefficient of friction over the contact, -.
     pub friction: f64,
@@ -40,7 +40,7 @@ pub struct FrictionLoop {
     pub displacement_mm: Vec<f64>,
     /// Force of the slider on the receptacle along x, N/mm.
     pub tangential_force_n_per_mm: Vec<f64>,
-    /// That of the whole contact, N; nothing of a section.
+    /// Tangential force of the whole contact, N; empty of a section.
     pub tangential_force_n: Vec<f64>,
 }
 

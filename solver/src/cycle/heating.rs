@@ -27,12 +27,12 @@ pub(super) struct Heating {
     /// Wear at the temperature of the surroundings.
     cold: Sides<Option<SurfaceWear>>,
     heat: ContactHeat,
-    /// Whether a pass wears a floor evenly although its temperature changes with the speed.
+    /// True if a pass wears a floor evenly although its temperature changes with the speed.
     pub(super) is_even: bool,
 }
 
 impl Heating {
-    /// That of an interface whose wear is the one at the temperature of the surroundings; `None` where nothing heats the contact.
+    /// Heating of an interface whose wear is the one at the temperature of the surroundings; `None` where nothing heats the contact.
     pub(super) fn of(
         scene: &Scene,
         interface: &Interface,

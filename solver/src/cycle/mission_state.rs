@@ -44,7 +44,7 @@ pub(crate) struct MissionState {
 }
 
 impl MissionState {
-    /// That of the loaded, unworn bodies.
+    /// State of the loaded, unworn bodies.
     pub(crate) fn new(scene: &Scene, mission: &Mission, state: &CycleState) -> Self {
         let totals = BlockWear::total(state, &Sides::default());
         let nodes = state.depth.as_ref().map(Vec::len);
@@ -59,12 +59,12 @@ impl MissionState {
         }
     }
 
-    /// Whether the present block is done.
+    /// Returns `true` if the present block is done.
     pub(crate) fn is_block_done(&self, state: &CycleState) -> bool {
         state.cycle >= self.position.until
     }
 
-    /// Whether all blocks have been repeated equally often.
+    /// Returns `true` if all blocks have been repeated equally often.
     pub(crate) fn is_whole(&self, scene: &Scene, state: &CycleState) -> bool {
         self.is_block_done(state) && self.position.is_last_block(scene)
     }
@@ -134,7 +134,7 @@ impl MissionState {
 }
 
 impl BlockWear {
-    /// That of a run without a mission, after so many cycles over a distance in mm.
+    /// Wear of a run without a mission, after so many cycles over a distance in mm.
     pub(crate) fn whole(
         (cycles, sliding_distance_mm): (u64, f64),
         energy_mj_per_mm: f64,

@@ -1,4 +1,4 @@
-//! What the cycles of one motion leave for later ones of the same motion: a mission returns to its blocks.
+//! State that the cycles of one motion leave for later ones of the same motion: a mission returns to its blocks.
 
 use serde::{Deserialize, Serialize};
 

@@ -45,7 +45,7 @@ impl Replays {
         }
     }
 
-    /// Whether contacts of the computed cycle stand on the step of a jump.
+    /// Returns `true` if contacts of the computed cycle stand on the step of a jump.
     pub(super) fn are_planned(&self) -> bool {
         !self.plan.spans.is_empty()
     }

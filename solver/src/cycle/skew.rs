@@ -41,7 +41,7 @@ impl Passes {
 }
 
 impl Skew {
-    /// Whether surfaces are skewed more than those of single cycles after one of so many cycles.
+    /// Returns `true` if surfaces are skewed more than those of single cycles after one of so many cycles.
     pub(super) fn remains_after(&self, jump: u64) -> bool {
         jump > 1 || self.jump > 1.0
     }

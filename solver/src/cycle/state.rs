@@ -40,7 +40,7 @@ pub enum CycleError {
 }
 
 impl CycleError {
-    /// Whether the cycle can be computed again with wider zones of fine elements.
+    /// Returns `true` if the cycle can be computed again with wider zones of fine elements.
     pub(crate) fn needs_wider_zones(self) -> bool {
         matches!(self, Self::Increment { source, .. } if source.needs_wider_zones())
     }

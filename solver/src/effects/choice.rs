@@ -1,4 +1,4 @@
-//! The decision about each effect: nothing to simulate, the user's switch, what the run has called for, its indicator.
+//! The decision about each effect: nothing to simulate, the user's switch, what the run has required, its indicator.
 
 use super::decision::{Decision, Indicator, Verdict};
 use super::dimension::can_simulate;
@@ -19,7 +19,7 @@ const SHARE: f64 = 0.2;
 /// are reached within a jump. Arbitrary.
 const LAYER_SHARE: f64 = 0.8;
 
-/// Decides about all effects, some of which the run or the budget calls for.
+/// Decides about all effects, some of which the run or the budget requires.
 pub(super) fn decide(
     scene: &Scene,
     indicators: &Indicators<'_>,
@@ -94,7 +94,7 @@ fn indicator(scene: &Scene, indicators: &Indicators<'_>, effect: Effect) -> Indi
     }
 }
 
-/// Whether the surface of a body wears by its law or plating.
+/// Returns `true` if the surface of a body wears by its law or plating.
 fn wears_by_law<S>(scene: &Scene, body: &Body<S>) -> bool {
     let motion = scene.timed_motion();
     let wears = |wear: SurfaceWear| {
@@ -121,7 +121,7 @@ fn is_at_reference(scene: &Scene) -> bool {
     softening.iter().all(|side| side.ratios.is_empty())
 }
 
-/// Whether a temperature of the contact changes a wear rate by what is known.
+/// Returns `true` if a temperature of the contact changes a wear rate by what is known.
 fn heat_counts(scene: &Scene) -> bool {
     let softens = [&scene.slider.softening, &scene.receptacle.softening];
     let laws = [scene.slider.wear, scene.receptacle.wear];
@@ -283,7 +283,7 @@ fn never_simulated(scene: &Scene, effect: Effect) -> Option<&'static str> {
     }
 }
 
-/// Whether a surface wears by an oxidational law.
+/// Returns `true` if a surface wears by an oxidational law.
 fn oxidises(scene: &Scene) -> bool {
     let laws = [scene.slider.wear, scene.receptacle.wear];
     laws.iter()

@@ -10,9 +10,9 @@ pub struct Decision {
     pub effect: Effect,
     /// The decision.
     pub verdict: Verdict,
-    /// Its indicator; `None` where there is nothing to decide.
+    /// Indicator; `None` where there is nothing to decide.
     pub indicator: Option<Indicator>,
-    /// Whether it can be simulated in the scene.
+    /// True if it can be simulated in the scene.
     pub is_available: bool,
     /// Reason, with the numbers that decided.
     pub reason: String,
@@ -31,7 +31,7 @@ impl Decision {
         is_missed.then(|| format!("{calls}: {}", self.reason))
     }
 
-    /// Whether a run may still call for the effect: it is skipped, not switched off, and can be simulated in the scene.
+    /// Returns `true` if a run may still call for the effect: it is skipped, not switched off, and can be simulated in the scene.
     pub(super) fn can_be_called_for(&self) -> bool {
         self.verdict == Verdict::Skipped && self.is_available
     }
@@ -40,7 +40,7 @@ impl Decision {
 /// A decision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Verdict {
-    /// The scene calls for it.
+    /// The scene requires it.
     Simulated,
     /// The scene does not call for it, or has nothing to simulate.
     Skipped,
@@ -53,7 +53,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Whether the effect is part of the model.
+    /// Returns `true` if the effect is part of the model.
     pub fn is_on(self) -> bool {
         matches!(self, Self::Simulated | Self::ForcedOn)
     }

@@ -1,4 +1,4 @@
-//! What depends on the dimension of a scene: indicators that differ from those of a section, and the effects that can be simulated.
+//! Effects by the dimension of a scene: indicators that differ from those of a section, and the effects that can be simulated.
 
 use super::{line, point};
 use crate::scene::Effect;
@@ -15,7 +15,7 @@ pub(super) fn value(scene: &Scene, effect: Effect) -> Option<f64> {
     }
 }
 
-/// Whether an effect can be simulated in a scene.
+/// Returns `true` if an effect can be simulated in a scene.
 pub(super) fn can_simulate(scene: &Scene, effect: Effect) -> bool {
     match scene.dimension {
         Dimension::PlaneStrain => effect.is_available(),

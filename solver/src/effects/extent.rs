@@ -1,4 +1,4 @@
-//! The dimension that a contact of finite width calls for.
+//! The dimension that a contact of finite width requires.
 //!
 //! A slider of the width w whose surface recedes by a crown of the radius R_z, or by a tilt, touches all of its width once the wear h is
 //! large against the height g = (w/2)^2/(2 R_z) + |tilt| w that recedes: its sections are then alike, and plane strain describes it
@@ -21,11 +21,11 @@ const SHARE: f64 = 0.2;
 /// Extent of a slider across the sliding direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
-    /// Its width w, mm.
+    /// Width w, mm.
     pub width_mm: f64,
     /// Radius R_z of its crown, mm; none of a straight one.
     pub crown_radius_mm: Option<f64>,
-    /// Its tilt, mrad.
+    /// Tilt, mrad.
     pub tilt_mrad: f64,
 }
 

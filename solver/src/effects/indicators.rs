@@ -40,7 +40,7 @@ const TIN_K: f64 = 211.9;
 /// What the indicators of a scene depend on besides its worn depths.
 pub(super) struct Indicators<'a> {
     scene: Cow<'a, Scene>,
-    /// Those of the blocks of a mission; none without a mission.
+    /// Indicators of the blocks of a mission; none without a mission.
     blocks: Vec<Indicators<'a>>,
     sizes: Sizes,
     /// Wear of the sides that are not switched off, and its rates.

@@ -2,7 +2,7 @@
 
 use crate::scene::Effect;
 
-/// Whether an effect can be simulated along a line.
+/// Returns `true` if an effect can be simulated along a line.
 pub(super) fn can_simulate(effect: Effect) -> bool {
     matches!(
         effect,

@@ -36,7 +36,7 @@ pub(super) fn value(scene: &Scene, effect: Effect) -> Option<f64> {
     }
 }
 
-/// Whether an effect can be simulated in a point contact.
+/// Returns `true` if an effect can be simulated in a point contact.
 pub(super) fn can_simulate(scene: &Scene, effect: Effect) -> bool {
     match effect {
         Effect::Elasticity

@@ -229,7 +229,7 @@ fn frictional_heat(indicators: &Indicators<'_>) -> String {
     )
 }
 
-/// Whether the coefficient of friction follows from the wear that an effect is.
+/// Returns `true` if the coefficient of friction follows from the wear that an effect is.
 fn follows_friction(scene: &Scene, effect: Effect) -> bool {
     match effect {
         Effect::SliderWear => scene.friction.follows_wear_of(Side::Slider),
@@ -238,7 +238,7 @@ fn follows_friction(scene: &Scene, effect: Effect) -> bool {
     }
 }
 
-/// The reason of an effect that a run has called for.
+/// The reason of an effect that a run has required.
 pub(super) fn called_for(cycle: u64, value: Option<f64>) -> String {
     match value {
         Some(value) => format!(

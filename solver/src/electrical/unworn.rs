@@ -27,7 +27,7 @@ const UNWORN: Patch = Patch {
 /// The unworn contact as a conductor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unworn {
-    /// Its constriction and its films, without the way through the bodies, mOhm.
+    /// Constriction and its films, without the way through the bodies, mOhm.
     pub mohm: f64,
     /// Radius of a spot, mm.
     pub spot_radius_mm: f64,

@@ -106,7 +106,7 @@ fn largest_mesh_factor(scene: &Scene) -> f64 {
     (SMALL_MESH / unknowns).max(MORE_UNKNOWNS).sqrt()
 }
 
-/// Whether a run with these errors would be changed by a restart, on a mesh within the limits.
+/// Returns `true` if a run with these errors would be changed by a restart, on a mesh within the limits.
 pub(super) fn is_worth_a_restart(scene: &Scene, errors: &Errors) -> bool {
     let refinement = finer(scene, errors);
     let Refinement {
@@ -119,7 +119,7 @@ pub(super) fn is_worth_a_restart(scene: &Scene, errors: &Errors) -> bool {
     changes && (scene.dimension.point().is_some() || has_mesh())
 }
 
-/// Whether the error of a quantity decides about the refinement. The width of a scar is read between nodes, so that
+/// Returns `true` if the error of a quantity decides about the refinement. The width of a scar is read between nodes, so that
 /// coarse meshes differ in it by more than their error, and pressures have singular corners, which no refinement
 /// resolves; both state their error.
 pub(super) fn is_decisive(quantity: Quantity) -> bool {

@@ -48,7 +48,7 @@ struct Common {
 enum Progress {
     /// A checkpoint of the one that is waited for. The companion waits for the answer, without which it stops.
     Checkpoint(Checkpoint, Sender<ControlFlow<()>>),
-    /// That of a number has ended.
+    /// The companion of a number has ended.
     Ended(usize, Box<Solved>),
 }
 

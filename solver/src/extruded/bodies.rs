@@ -68,7 +68,7 @@ impl Bodies {
         3 * (section / 2) * self.planes.count()
     }
 
-    /// Whether a plane has drifted from the geometry of the operators, for worn depths of each plane in mm.
+    /// Returns `true` if a plane has drifted from the geometry of the operators, for worn depths of each plane in mm.
     pub(super) fn have_drifted<'a>(
         &self,
         depths: impl IntoIterator<Item = &'a Sides<Vec<f64>>>,

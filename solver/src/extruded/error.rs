@@ -1,4 +1,4 @@
-//! What can end a run of extruded bodies without a result.
+//! Errors of a run of extruded bodies.
 
 use crate::condensation::OperatorError;
 use crate::contact::ContactError;
@@ -10,9 +10,9 @@ pub enum ExtrudedError {
     /// A value of the scene is outside of its range.
     #[error("{name} is {value}, must be positive")]
     Value {
-        /// Its name and unit.
+        /// Name and unit.
         name: &'static str,
-        /// It.
+        /// The value.
         value: f64,
     },
     /// No node plane would lie in the middle of the width.
@@ -45,7 +45,7 @@ pub enum ExtrudedError {
         "a part of the contact may stick: amplitude is {amplitude_mm} mm, twice the displacement at which all of it slips is {least_mm:.3e} mm"
     )]
     Sticks {
-        /// Its amplitude, mm.
+        /// Amplitude, mm.
         amplitude_mm: f64,
         /// The least one, mm.
         least_mm: f64,
@@ -58,7 +58,7 @@ pub enum ExtrudedError {
         "amplitude is {amplitude_mm} mm, must be below half of the receptacle's length of {half_block_mm} mm"
     )]
     LeavesReceptacle {
-        /// Its amplitude, mm.
+        /// Amplitude, mm.
         amplitude_mm: f64,
         /// Half of the length, mm.
         half_block_mm: f64,

@@ -1,4 +1,4 @@
-//! What a run reports of extruded bodies.
+//! Record of a run of extruded bodies.
 
 use crate::along_line::{StationCycle, StationProfile};
 
@@ -9,12 +9,12 @@ pub enum ExtrudedOutcome {
     Completed,
     /// A body is nearly consumed in a node plane.
     WornThrough {
-        /// Its number.
+        /// Number.
         plane: usize,
     },
     /// The groove of a node plane is as deep below an end of its surface as the slider's radius: no graph describes walls that overhang.
     DeeperThanRadius {
-        /// Its number.
+        /// Number.
         plane: usize,
     },
     /// The receiver of its cycles ended it.

@@ -1,4 +1,4 @@
-//! What a run of extruded bodies is computed from.
+//! Input of a run of extruded bodies.
 
 use super::error::ExtrudedError;
 use crate::closed_form::unworn_contact;

@@ -74,7 +74,7 @@ pub(crate) struct SectionState<'a> {
     pub(crate) model: &'a Model,
     pub(crate) condensed: &'a Condensed,
     pub(crate) depth: &'a Sides<Vec<f64>>,
-    /// Its contacts at the named positions, the same ones in all sections.
+    /// Contacts at the named positions, the same ones in all sections.
     pub(crate) contacts: Vec<(Position, &'a ContactState)>,
 }
 

@@ -39,7 +39,7 @@ impl CommonMesh {
         Self { spines, mesh }
     }
 
-    /// Its spines among those of the body.
+    /// Spines among those of the body.
     pub(super) fn spines(&self) -> &[usize] {
         &self.spines
     }

@@ -1,4 +1,4 @@
-//! What the fields inside the bodies can fail with.
+//! Errors of fields inside the bodies.
 
 use crate::condensation::OperatorError;
 use crate::mesh::MeshError;

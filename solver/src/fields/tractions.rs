@@ -1,4 +1,4 @@
-//! What the contact surfaces of a section carry.
+//! Tractions on the contact surfaces of a section.
 
 use crate::along_line::Along;
 use crate::condensation::Operators;
@@ -29,7 +29,7 @@ pub(super) struct SurfaceNodes {
 }
 
 impl SurfaceNodes {
-    /// Those of a mesh on some spines of its body, whose contact surface has the spines from the first to the end.
+    /// Nodes of a mesh on some spines of its body, whose contact surface has the spines from the first to the end.
     pub(super) fn of(mesh: &ColumnMesh, spines: &[usize], (first, end): (usize, usize)) -> Self {
         let spines = spines.iter().enumerate();
         let (nodes, contact) = spines

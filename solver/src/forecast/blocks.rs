@@ -55,7 +55,7 @@ impl WornBlocks {
         }
     }
 
-    /// Whether the run ends after so many cycles.
+    /// Returns `true` if the run ends after so many cycles.
     pub(super) fn is_done(&self, scene: &Scene, block: usize, cycle: u64) -> bool {
         let depth = |side, part| self.depth_of_part(side, part);
         stops::end(scene, self.progress(block, cycle), depth).is_some()

@@ -295,7 +295,7 @@ fn deepest(sections: &[Section], side: Side, part: f64) -> f64 {
     depths.fold(0.0, f64::max)
 }
 
-/// Whether the groove of a section is as deep as the slider's radius.
+/// Returns `true` if the groove of a section is as deep as the slider's radius.
 fn is_too_deep(scene: &Scene, sections: &[Section]) -> bool {
     deepest(sections, Side::Receptacle, 0.0) >= scene.slider.shape.radius_mm
 }

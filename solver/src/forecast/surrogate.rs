@@ -31,7 +31,7 @@ fn shape(x: f64, drawn: f64, flat: f64, reach: f64) -> f64 {
 /// Surrogate for the worn surfaces, one half of the symmetric scar.
 pub(super) struct Scar {
     tuning: Tuning,
-    /// Whether part of the contact may stick through the whole stroke.
+    /// True if part of the contact may stick through the whole stroke.
     pub(super) sticks: bool,
     /// Radius of the relative curvature, Hertz half-width, amplitude, mm.
     radius: f64,
@@ -50,7 +50,7 @@ pub(super) struct Scar {
     pass: f64,
     /// Share of each side in the depth.
     shares: Sides<f64>,
-    /// Whether grooves can be extrapolated, and whether wear is in proportion to the load.
+    /// True if grooves can be extrapolated, and whether wear is in proportion to the load.
     passes_are_even: bool,
     is_proportional: bool,
     motion: Motion,
@@ -72,7 +72,7 @@ pub(super) struct Scar {
 }
 
 impl Scar {
-    /// That of a motion under which part of the contact may stick or not.
+    /// Scar of a motion under which part of the contact may stick or not.
     pub(super) fn new(scene: &Scene, layout: &Layout, sticks: bool) -> Self {
         let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
         let tuning = scene.accuracy.tuning;

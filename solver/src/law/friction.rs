@@ -68,7 +68,7 @@ impl Friction {
         }
     }
 
-    /// Whether the coefficient changes during a run.
+    /// Returns `true` if the coefficient changes during a run.
     pub fn changes(&self) -> bool {
         match self {
             Self::Frictionless | Self::Coulomb { .. } => false,
@@ -79,7 +79,7 @@ impl Friction {
         }
     }
 
-    /// Whether the coefficient follows from how far a side has worn, where it wears.
+    /// Returns `true` if the coefficient follows from how far a side has worn, where it wears.
     pub fn follows_wear_of(&self, side: Side) -> bool {
         match self {
             Self::Frictionless | Self::Coulomb { .. } | Self::ByCycle(_) => false,
@@ -91,7 +91,7 @@ impl Friction {
         }
     }
 
-    /// Its table by cycle, if it has one.
+    /// Table by cycle, if it has one.
     pub fn by_cycle(&self) -> Option<&Table> {
         match self {
             Self::ByCycle(table) => Some(table),

@@ -13,7 +13,7 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// That of a speed in mm/s; none of a motion that stands still, in which nothing slips.
+    /// Pace of a speed in mm/s; none of a motion that stands still, in which nothing slips.
     pub fn at_speed(mm_s: f64) -> Self {
         Self {
             s_per_mm: if mm_s > 0.0 { 1.0 / mm_s } else { 0.0 },

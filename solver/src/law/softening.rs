@@ -27,7 +27,7 @@ pub struct Softening {
     /// Distance to the melting temperature of each layer from the surface down, then of the base, K; `None` where it is not known, or
     /// the wear does not depend on the hardness.
     pub margins_k: Vec<Option<f64>>,
-    /// Whether a surface that wears by its hardness has no known melting temperature.
+    /// True if a surface that wears by its hardness has no known melting temperature.
     pub lacks_melting: bool,
     /// Least distance to a melting temperature of all of its materials, whether they wear or not, K, if one is known.
     pub to_melting_k: Option<f64>,
@@ -53,7 +53,7 @@ impl Softening {
         Margins(margins)
     }
 
-    /// Whether a ratio is unknown.
+    /// Returns `true` if a ratio is unknown.
     pub(crate) fn is_unknown(&self) -> bool {
         self.ratios.iter().any(Option::is_none)
     }

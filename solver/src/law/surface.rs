@@ -21,7 +21,7 @@ pub enum SurfaceWear {
     ByDose(DoseCurve),
     /// A depth of which a power adds.
     ByPower {
-        /// Its law.
+        /// Law.
         law: PowerLaw,
         /// What adds during an increment; nothing outside of one.
         during: Exposure,
@@ -29,7 +29,7 @@ pub enum SurfaceWear {
 }
 
 impl SurfaceWear {
-    /// That of a plating over a base; `None` for a bare base that does not wear. Under a plating the base has a rate that is the
+    /// Wear of a plating over a base; `None` for a bare base that does not wear. Under a plating the base has a rate that is the
     /// same in every state, and does not wear otherwise.
     pub fn new(plating: &[Layer], base: Option<WearLaw>) -> Option<Self> {
         if plating.is_empty() {
@@ -118,7 +118,7 @@ impl SurfaceWear {
         largest + (by_law - 1.0).abs().min(MOLTEN)
     }
 
-    /// Whether the rate depends on the depth.
+    /// Returns `true` if the rate depends on the depth.
     pub fn depends_on_depth(self) -> bool {
         match self {
             Self::Law(_) => false,
@@ -135,17 +135,17 @@ impl SurfaceWear {
         }
     }
 
-    /// Whether it is by the time of slip.
+    /// Returns `true` if it is by the time of slip.
     pub fn is_by_time(self) -> bool {
         matches!(self, Self::Law(WearLaw::OfSpeed(law)) if law.is_by_time())
     }
 
-    /// Whether a pass wears a flat floor evenly by distance or by time, so that jumps in grooves can extrapolate it.
+    /// Returns `true` if a pass wears a flat floor evenly by distance or by time, so that jumps in grooves can extrapolate it.
     pub fn is_even(self) -> bool {
         self.uniform().is_some() || self.dose_curve().is_some() || self.is_by_time()
     }
 
-    /// Whether the wear of a pass is in proportion to its load, however this is distributed.
+    /// Returns `true` if the wear of a pass is in proportion to its load, however this is distributed.
     pub fn is_proportional(self) -> bool {
         !matches!(self, Self::ByPower { .. })
     }
@@ -177,7 +177,7 @@ impl SurfaceWear {
         }
     }
 
-    /// Whether a layer below the surface wears faster than the surface.
+    /// Returns `true` if a layer below the surface wears faster than the surface.
     pub(crate) fn quickens(self) -> bool {
         match self {
             Self::ByDose(curve) => curve.largest_rate(f64::INFINITY) > curve.initial_rate(),

@@ -5,7 +5,7 @@
 pub enum Temperature {
     /// One that is given for the contact, K: heat of friction and current is part of it.
     OfContact(f64),
-    /// That of the surroundings, K, over which friction and current heat the contact.
+    /// Temperature of the surroundings, K, over which friction and current heat the contact.
     OfSurroundings(f64),
 }
 

@@ -111,7 +111,7 @@ impl WearLaw {
         }
     }
 
-    /// Whether its constants hold at a temperature that is given for the contact, which no further heat changes.
+    /// Returns `true` if its constants hold at a temperature that is given for the contact, which no further heat changes.
     pub fn has_given_temperature(self) -> bool {
         matches!(self, Self::OfSpeed(law) if law.has_given_temperature())
     }

@@ -22,15 +22,15 @@ pub enum FactorError {
     /// The matrix is not positive definite: a body is not held, or its material is unphysical.
     #[error("the stiffness matrix of order {order} is not positive definite")]
     NotPositiveDefinite {
-        /// Its order.
+        /// Order.
         order: usize,
     },
     /// The pattern cannot be analysed.
     #[error("the pattern of a matrix of order {order} with {entries} entries cannot be analysed")]
     Pattern {
-        /// Its order.
+        /// Order.
         order: usize,
-        /// Its entries.
+        /// Entries.
         entries: usize,
     },
 }

@@ -25,9 +25,9 @@ pub(super) struct LowRank {
 pub struct Approximation {
     /// Error over the norm of a block.
     pub tolerance: f64,
-    /// Whether all of its entries are compared, not only what its crosses show.
+    /// True if all of its entries are compared, not only what its crosses show.
     pub compared: bool,
-    /// Whether the matrix is symmetric.
+    /// True if the matrix is symmetric.
     pub symmetric: bool,
 }
 

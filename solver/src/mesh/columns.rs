@@ -15,7 +15,7 @@ use crate::element::{Element, Quad4, Tri3, physical_gradient};
 /// Spines shorter than this part of the longest one are taken as one node.
 const TIP: f64 = 1e-9;
 
-/// Whether a spine of a length, in a mesh whose longest spine is `longest`, is a single node.
+/// Returns `true` if a spine of a length, in a mesh whose longest spine is `longest`, is a single node.
 pub(crate) fn is_tip(length: f64, longest: f64) -> bool {
     length.abs() <= TIP * longest
 }

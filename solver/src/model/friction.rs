@@ -14,7 +14,7 @@ use crate::sides::{Side, Sides};
 pub(crate) enum ContactFriction {
     /// The same at every place, after so many cycles.
     Uniform(Table),
-    /// That of each surface, of at least one of them.
+    /// Friction of each surface, of at least one of them.
     BySurface(Box<Sides<Option<SurfaceFriction>>>),
 }
 
@@ -38,7 +38,7 @@ pub(crate) enum SurfaceFriction {
 }
 
 impl ContactFriction {
-    /// That of a scene whose surfaces wear in this way, through the layers of their platings or by the outermost one alone.
+    /// Friction of a scene whose surfaces wear in this way, through the layers of their platings or by the outermost one alone.
     pub(crate) fn new(scene: &Scene, wear: &Sides<Option<SurfaceWear>>, layered: bool) -> Self {
         let constant = |coefficient| Self::Uniform(Table::new(&[(0.0, coefficient)]));
         let surfaces = match &scene.friction {

@@ -23,7 +23,7 @@ pub(super) const MOST_SURFACE_NODES: usize = 50_000;
 /// Mesh lines of both bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
-    /// Those of each body, in its own frame.
+    /// Mesh lines of each body, in its own frame.
     pub bodies: Sides<BodyLayout>,
     /// The lengths that the spacing was chosen from.
     pub sizes: Sizes,

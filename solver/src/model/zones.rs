@@ -29,7 +29,7 @@ pub(crate) const ZONE_WIDENING: f64 = 2.0;
 pub struct Zone {
     /// Numbers of its spines among those of the body, ascending.
     pub spines: Vec<usize>,
-    /// Its spines whose surface nodes are retained, among `spines`: first and one past the last.
+    /// Spines whose surface nodes are retained, among `spines`: first and one past the last.
     pub contact: (usize, usize),
 }
 

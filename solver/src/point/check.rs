@@ -1,4 +1,4 @@
-//! What a point contact that can be simulated has.
+//! Checks of a point contact before it is simulated.
 
 use super::error::PointError;
 use crate::closed_form::PointScene;

@@ -1,4 +1,4 @@
-//! What can end a run of a point contact without a result.
+//! Errors of a run of a point contact.
 
 use crate::contact::area::{AreaError, TangentialError};
 
@@ -11,9 +11,9 @@ pub enum PointError {
     /// A value of the scene is outside of its range.
     #[error("{name} is {value}, must be positive")]
     Value {
-        /// Its name and unit.
+        /// Name and unit.
         name: &'static str,
-        /// It.
+        /// The value.
         value: f64,
     },
     /// A contact of which a part may stick moves too far.
@@ -21,7 +21,7 @@ pub enum PointError {
         "amplitude is {amplitude_mm} mm, at most {most_mm:.3e} mm where a part of the contact may stick"
     )]
     Amplitude {
-        /// Its amplitude, mm.
+        /// Amplitude, mm.
         amplitude_mm: f64,
         /// The largest one, mm.
         most_mm: f64,

@@ -36,7 +36,7 @@ impl Field {
         2 * self.half.1
     }
 
-    /// Its cells of a size in mm.
+    /// Cells of a size in mm.
     pub(super) fn cells(&self, (dx_mm, dz_mm): (f64, f64)) -> Cells {
         Cells {
             along_x: 2 * self.half.0,

@@ -184,7 +184,7 @@ impl PointIntegrator {
             .step_over_indentation(rates, state.neutral.half_lengths_mm.0)
     }
 
-    /// Whether only one body wears: where both do, their surfaces without the compliance of the wear differ by what increments leave, and
+    /// Returns `true` if only one body wears: where both do, their surfaces without the compliance of the wear differ by what increments leave, and
     /// the pressure of the pass is the better one.
     fn wears_once(&self) -> bool {
         let wear = self.scene.bodies.as_ref().map(|body| body.wear.is_some());

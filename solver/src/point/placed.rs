@@ -21,7 +21,7 @@ pub(crate) struct Placed {
     pub(crate) pressure_mpa: Vec<f64>,
     /// Shear on the receptacle along the middle section, MPa.
     pub(crate) shear_mpa: Vec<f64>,
-    /// Its line load, N/mm, and the tangential force of the whole contact, N.
+    /// Line load, N/mm, and the tangential force of the whole contact, N.
     pub(super) tangential: (f64, f64),
 }
 

@@ -1,4 +1,4 @@
-//! What a run reports of a point contact.
+//! Record of a run of a point contact.
 
 use serde::{Deserialize, Serialize};
 

@@ -44,7 +44,7 @@ struct Increment {
     worn_path_mm: f64,
     /// Cycles that it represents.
     cycles: f64,
-    /// Whether it wears by the slip of each cell.
+    /// True if it wears by the slip of each cell.
     is_partial: bool,
 }
 
@@ -197,7 +197,7 @@ impl Sliding {
         }
     }
 
-    /// Builds the operators anew where the grid has changed.
+    /// Builds the operators again where the grid has changed.
     fn fit(&mut self, state: &State) {
         let cells = state.lattice.cells();
         if *self.contact.cells() != cells {

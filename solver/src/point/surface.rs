@@ -14,7 +14,7 @@ use crate::law::surface::SurfaceWear;
 /// A worn surface.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Surface {
-    /// Its law, which a checkpoint has no copy of.
+    /// Law, which a checkpoint has no copy of.
     #[serde(skip)]
     wear: Option<SurfaceWear>,
     /// Rate at which the equivalent depth grows by the dose, 1/MPa.
@@ -57,7 +57,7 @@ impl Surface {
         self.wear = wear;
     }
 
-    /// Whether the rate is the same at every depth.
+    /// Returns `true` if the rate is the same at every depth.
     pub(super) fn is_linear(&self) -> bool {
         self.wear.is_none_or(|wear| !wear.depends_on_depth())
     }

@@ -11,7 +11,7 @@ pub struct Channel<R> {
     pub description: &'static str,
     /// Name of its curve in the picture of worn depths; empty if it is not drawn there.
     pub curve: &'static str,
-    /// Its value in a report.
+    /// Value in a report.
     pub value: fn(&R) -> f64,
 }
 

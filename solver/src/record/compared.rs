@@ -63,7 +63,7 @@ const LARGEST: f64 = 1e6;
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Compared {
     cycles: Vec<f64>,
-    /// Those of a quantity at twice its place in [`Quantity::ALL`] and the next.
+    /// Values of a quantity at twice its place in [`Quantity::ALL`] and the next.
     values: [Vec<f64>; 2 * Quantity::ALL.len()],
     /// Relative change of the outputs by the effects that were skipped to the end.
     pub(crate) skipped_change: f64,
@@ -116,7 +116,7 @@ impl Compared {
             .fold(0.0, f64::max)
     }
 
-    /// Whether the resistance of the contact is among the quantities.
+    /// Returns `true` if the resistance of the contact is among the quantities.
     pub(crate) fn has_resistance(&self) -> bool {
         let last = self.values.last().and_then(|column| column.last());
         last.is_some_and(|found| *found > 0.0)

@@ -37,7 +37,7 @@ pub struct CriterionState {
     pub limit: f64,
     /// Equivalent of the depth that the part of the scar has, mm.
     equivalent: f64,
-    /// Its increase per cycle in the last computed one, mm.
+    /// Increase per cycle in the last computed one, mm.
     rate: f64,
     /// Estimated relative error of the cycles; `None` without companions that have reached it.
     pub error: Option<f64>,

@@ -24,7 +24,7 @@ pub struct Snapshot {
     pub friction_loop: FrictionLoop,
     /// Fields inside the bodies at the same positions, if the scene asks for them.
     pub fields: Vec<PlacedFields>,
-    /// Those of a contact along a line.
+    /// Fields inside the bodies of a contact along a line.
     pub line_fields: Vec<LineFields>,
     /// The whole contact, of which profiles and tractions are those of the middle section; `None` of a section.
     pub area: Option<AreaMaps>,

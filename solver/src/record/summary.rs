@@ -40,7 +40,7 @@ pub struct Summary {
     pub warnings: Vec<String>,
     /// The decision about each effect at the end.
     pub effects: Vec<(Effect, Verdict)>,
-    /// Skipped effects that the run has called for, in their order.
+    /// Skipped effects that the run has required, in their order.
     pub crossings: Vec<Crossing>,
     /// Life by the criteria of the scene.
     pub life: Life,

@@ -1,4 +1,4 @@
-//! The run of a contact of finite extent across the sliding direction, a point, a line or extruded bodies: cycles until it ends, with the events of the
+//! The run of a contact of finite width, a point, a line or extruded bodies: cycles until it ends, with the events of the
 //! run of a section. What its bodies are computed by is behind a trait.
 
 mod conduction;
@@ -26,7 +26,7 @@ use crate::station::LineIntegrator;
 use conduction::{push_life_by_resistance, range, update_resistance};
 use contact::Contact;
 
-/// Solves a contact of finite extent by a plan, after earlier runs of it.
+/// Solves a contact of finite width by a plan, after earlier runs of it.
 pub(super) fn begin(
     scene: &Scene,
     plan: &EffectsPlan,
@@ -129,7 +129,7 @@ fn proceed<C: Contact>(
     advance((scene, plan), contact, run, observer)
 }
 
-/// Computes cycles until the run ends; where it calls for an effect that was skipped, it goes on from the cycle before with it.
+/// Computes cycles until the run ends; where it requires an effect that was skipped, it continues from the cycle before with it.
 fn advance<C: Contact>(
     (scene, mut plan): (&Scene, EffectsPlan),
     mut contact: C,
@@ -148,7 +148,7 @@ fn advance<C: Contact>(
     }
 }
 
-/// Computes cycles until the run ends (`Break`) or calls for an effect (`Continue`).
+/// Computes cycles until the run ends (`Break`) or requires an effect (`Continue`).
 fn integrate<C: Contact>(
     (scene, plan, contact): (&Scene, &EffectsPlan, &mut C),
     run: &mut FiniteRun<C::State>,
@@ -222,7 +222,7 @@ fn integrate<C: Contact>(
     Ok(ControlFlow::Break(Outcome::Completed))
 }
 
-/// Its progress for its stops.
+/// Progress for its stops.
 fn progress<C: Contact>(scene: &Scene, contact: &C, run: &FiniteRun<C::State>) -> Progress {
     let (cycles_left, worn_through) = contact.cycles_left();
     Progress {

@@ -16,7 +16,7 @@ use crate::observer::{Event, Observer, Phase};
 use crate::record::{self, Compared, Initial, Life};
 use crate::scene::Scene;
 
-/// The loaded, unworn bodies, and what their load called for.
+/// The loaded, unworn bodies, and what their load required.
 pub(super) struct Loaded {
     pub(super) plan: EffectsPlan,
     pub(super) model: Model,

@@ -1,4 +1,4 @@
-//! What a run has reached: its life, its end, its progress for its stops.
+//! Progress of a run: its life, its end, and the quantities of its stops.
 
 use super::resistance;
 use crate::ale::Spines;
@@ -22,7 +22,7 @@ pub(super) fn end(
     stops::end(scene, now(scene, (model, spines), run), depth)
 }
 
-/// Its progress for its stops.
+/// Progress for its stops.
 pub(super) fn now(scene: &Scene, (model, spines): (&Model, &Spines), run: &SectionRun) -> Progress {
     Progress {
         exceeds_resistance: resistance::exceeds_limit(scene, &run.electrical),

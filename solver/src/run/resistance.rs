@@ -29,7 +29,7 @@ pub(super) enum Consequence {
 }
 
 /// Takes a computed cycle after a state into the resistance; where that has the run do something else, the run is as before it, but for
-/// its state where skipped effects are called for.
+/// its state where skipped effects are required.
 pub(super) fn update(
     evaluation: &Evaluation<'_>,
     (scene, plan): (&Scene, &EffectsPlan),
@@ -117,7 +117,7 @@ pub(super) fn push_life_of_section(
     push_life(scene, evaluation, computed.cycles(), change, life, contact);
 }
 
-/// Whether the resistance has reached a limit that ends the run.
+/// Returns `true` if the resistance has reached a limit that ends the run.
 pub(super) fn exceeds_limit(scene: &Scene, electrical: &ElectricalState) -> bool {
     let limits = scene.conduction.known().map(|known| &known.stop_mohm);
     let exceeds = |limit: &f64| electrical.total_mohm().is_some_and(|total| total >= *limit);

@@ -78,7 +78,7 @@ pub(super) fn step(
     Ok(Step::Renew(Renewal::Effects))
 }
 
-/// The skipped effects that an error after so many cycles calls for: those that a contact without a solution may have one with.
+/// The skipped effects that an error after so many cycles requires: those that a contact without a solution may have one with.
 fn called_for_by(error: CycleError, plan: &EffectsPlan, cycle: u64) -> Vec<Crossing> {
     match error {
         CycleError::Increment { .. } => plan.called_for_by_failure(cycle),

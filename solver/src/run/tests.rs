@@ -1,4 +1,4 @@
-//! A run that calls for an effect which its plan has skipped.
+//! A run that requires an effect which its plan has skipped.
 
 use super::*;
 use crate::model::tests::fuzz_button;

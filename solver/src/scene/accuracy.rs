@@ -21,7 +21,7 @@ pub struct Accuracy {
     pub tuning: Tuning,
     /// Factors on what is given or chosen.
     pub refinement: Refinement,
-    /// Whether companions estimate the error and choose the refinement (`error_control`).
+    /// True if companions estimate the error and choose the refinement (`error_control`).
     pub estimate_errors: bool,
 }
 

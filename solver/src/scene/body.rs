@@ -20,9 +20,9 @@ pub struct SurfaceEffects {
 /// A deformable body: shape, elasticity, wear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Body<S> {
-    /// Its geometry.
+    /// Geometry.
     pub shape: S,
-    /// Its elastic constants.
+    /// Elastic constants.
     pub elastic: Elastic,
     /// Wear law of its surface, below the plating if there is one; `None` does not wear.
     pub wear: Option<WearLaw>,
@@ -30,7 +30,7 @@ pub struct Body<S> {
     pub plating: Vec<Layer>,
     /// The body as a conductor of heat, if its conductivity is known.
     pub thermal: Option<Conductor>,
-    /// Its hardnesses at the temperature of the contact.
+    /// Hardnesses at the temperature of the contact.
     pub softening: Softening,
 }
 

@@ -73,7 +73,7 @@ pub enum LineShape {
     },
     /// A straight line across the motion.
     Straight {
-        /// Its length, mm.
+        /// Length, mm.
         width_mm: f64,
         /// Radius by which the slider's surface recedes from the middle of the line to its ends, mm; straight if absent.
         crown_radius_mm: Option<f64>,
@@ -127,12 +127,12 @@ impl Dimension {
         }
     }
 
-    /// Whether it consists of sections along a line, all of which slip as imposed.
+    /// Returns `true` if it consists of sections along a line, all of which slip as imposed.
     pub fn has_sections(&self) -> bool {
         matches!(self, Self::Line(_) | Self::Extruded(_))
     }
 
-    /// Whether it has a finite extent across the sliding direction.
+    /// Returns `true` if it has a finite width.
     pub fn is_finite(&self) -> bool {
         *self != Self::PlaneStrain
     }
@@ -147,7 +147,7 @@ impl LineShape {
         }
     }
 
-    /// Whether all sections move alike and touch at once.
+    /// Returns `true` if all sections move alike and touch at once.
     pub fn is_even(self) -> bool {
         match self {
             Self::Ring { motion, .. } => motion == RingMotion::Torsion,

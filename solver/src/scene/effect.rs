@@ -85,7 +85,7 @@ effects! {
     SpringFading = "spring_fading",
         "mean loss of load over the load, (h_slider + h_receptacle) k/(2 P)",
         ["load_n_per_mm", "max_depth_mm", "worn_area_mm2", "peak_pressure_mpa"];
-    /// Finite strains and rotations of the bodies; never simulated: a scene that calls for it is refused.
+    /// Finite strains and rotations of the bodies; never simulated: a scene that requires it is refused.
     GeometricNonlinearity = "geometric_nonlinearity",
         "error of small strains in peak pressure and half-width, (p0/2E*)(1 + 0.16 mu^2)",
         ["peak_pressure_mpa", "contact_half_width_mm"];
@@ -132,7 +132,7 @@ effects! {
 }
 
 impl Effect {
-    /// Whether it can be simulated.
+    /// Returns `true` if it can be simulated.
     pub fn is_available(self) -> bool {
         !matches!(
             self,
@@ -149,13 +149,13 @@ impl Effect {
         )
     }
 
-    /// Whether its indicator, if it is skipped, counts as an error of what the tolerance bounds. Effects that are never
+    /// Returns `true` if its indicator, if it is skipped, counts as an error of what the tolerance bounds. Effects that are never
     /// simulated have limits of their own; layers that the wear does not reach change nothing.
     pub(crate) fn is_counted(self) -> bool {
         self.is_available() && self != Self::Plating && !self.is_derived()
     }
 
-    /// Whether it follows from the wear and changes none of it.
+    /// Returns `true` if it follows from the wear and changes none of it.
     pub fn is_derived(self) -> bool {
         matches!(self, Self::Resistance | Self::SkinEffect)
     }

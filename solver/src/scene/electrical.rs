@@ -16,7 +16,7 @@ pub enum Conduction {
     Unknown {
         /// What, in words.
         missing: &'static str,
-        /// Whether the resistance is asked for.
+        /// True if the resistance is asked for.
         is_asked_for: bool,
     },
 }

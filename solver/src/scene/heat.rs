@@ -60,7 +60,7 @@ impl ContactHeat {
 }
 
 impl Scene {
-    /// Its contact of a half-width in mm as a source of frictional heat after so many cycles, if both conductivities are known. Heat of
+    /// Contact of a half-width in mm as a source of frictional heat after so many cycles, if both conductivities are known. Heat of
     /// other blocks of a mission is left out.
     pub(crate) fn sliding_heat(&self, half_width_mm: f64, cycles: f64) -> Option<SlidingHeat> {
         let (slider, receptacle) = (self.slider.thermal?, self.receptacle.thermal?);

@@ -13,7 +13,7 @@ use crate::number::{real_cycles, whole_cycles};
 /// A block of a mission.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Block {
-    /// Its motion, not continuous.
+    /// Motion, not continuous.
     pub motion: Motion,
     /// The course of that in time.
     pub timing: Timing,

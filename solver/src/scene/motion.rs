@@ -16,7 +16,7 @@ pub enum Motion {
     },
     /// Periodic with turning points between the outermost ones, beginning at the neutral position on its last way to +x in a period.
     Periodic {
-        /// Its turning points about the neutral position.
+        /// Turning points about the neutral position.
         turns: TurningPoints,
         /// Duration of a cycle, s.
         period_s: f64,
@@ -58,7 +58,7 @@ impl Motion {
         }
     }
 
-    /// Whether it turns between its outermost turning points.
+    /// Returns `true` if it turns between its outermost turning points.
     pub fn turns_inside(self) -> bool {
         matches!(self, Self::Periodic { .. })
     }

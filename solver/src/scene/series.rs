@@ -21,7 +21,7 @@ const HALVINGS: usize = 52;
 /// A term of a series.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Term {
-    /// Its order n: periods of the term in one of the motion; at most [`HIGHEST_ORDER`].
+    /// Order n: periods of the term in one of the motion; at most [`HIGHEST_ORDER`].
     pub order: u64,
     /// Amplitude s of the sine, mm.
     pub sine_mm: f64,

@@ -33,7 +33,7 @@ pub(crate) struct TimedMotion {
     amplitude_mm: f64,
     /// Distance of a cycle, mm; 0 of a continuous motion.
     distance_mm: f64,
-    /// Its period, s; without bound of a continuous one.
+    /// Period, s; without bound of a continuous one.
     period_s: f64,
     timing: Timing,
 }

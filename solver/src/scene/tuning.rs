@@ -214,7 +214,7 @@ pub struct Tuning {
 }
 
 impl Tuning {
-    /// Whether a stroke is gross reciprocating sliding on a contact of a half-width, mm.
+    /// Returns `true` if a stroke is gross reciprocating sliding on a contact of a half-width, mm.
     pub(crate) fn is_gross(&self, amplitude: f64, half_width: f64) -> bool {
         amplitude > self.gross_from * half_width
     }

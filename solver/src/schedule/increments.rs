@@ -61,7 +61,7 @@ pub(crate) fn steps(motion: Motion, count: usize) -> Vec<Step> {
     }
 }
 
-/// Whether a step is the first one after a turning point.
+/// Returns `true` if a step is the first one after a turning point.
 pub(crate) fn begins_a_stroke(steps: &[Step], step: usize) -> bool {
     match step.checked_sub(1) {
         Some(before) => steps[before].stroke != steps[step].stroke,

@@ -53,7 +53,7 @@ impl MissionPosition {
         (from..mission.blocks.len()).find(|block| self.cycles(mission, *block) > 0)
     }
 
-    /// Whether the last block of the present rounds is under way.
+    /// Returns `true` if the last block of the present rounds is under way.
     pub(crate) fn is_last_block(&self, scene: &Scene) -> bool {
         let mission = scene.mission.as_ref();
         mission.is_none_or(|mission| self.following(mission, self.block + 1).is_none())

@@ -21,7 +21,7 @@ pub(crate) struct Followed {
     /// Half-widths of the present contact and of that of a single cycle, mm.
     pub(crate) half_width: f64,
     pub(crate) single: f64,
-    /// Whether part of it may stick through the whole stroke.
+    /// True if part of it may stick through the whole stroke.
     pub(crate) sticks: bool,
 }
 

@@ -33,9 +33,9 @@ pub(crate) struct Progress {
     pub(crate) cycles_left: f64,
     /// Largest wear of a point of each side per physical cycle, as equivalent depth, mm.
     pub(crate) fastest_rate: Sides<f64>,
-    /// Whether a body is nearly consumed somewhere.
+    /// True if a body is nearly consumed somewhere.
     pub(crate) worn_through: bool,
-    /// Whether the resistance of the contact has reached a limit that ends the run.
+    /// True if the resistance of the contact has reached a limit that ends the run.
     pub(crate) exceeds_resistance: bool,
 }
 

@@ -3,7 +3,7 @@
 //!   e(s) = sum_n delta_n P_n cos(n pi s/l),  delta_n = C_n - C_0,
 //! C_n the compliance of both bodies under the wave (`condensation::harmonic`), C_0 that of an even load with both far faces held. n = 0
 //! changes nothing. l is the length of the line that the stations lie on: a half ring, half of a straight line, or all of one with a
-//! tilt; at its ends the waves are level, as of a line that goes on beyond them in mirror image.
+//! tilt; at its ends the waves are level, as of a line that continues beyond them in mirror image.
 //!
 //! `e_j = sum_k D_jk P_k`: between stations line loads are linear, along a ring, where stations are evenly spaced, the sum of waves.
 //! Limiting case: 2 (1 - nu^2)/(pi E) ln(1/k) of each body for waves between the lengths of contact and body, so that Hertz' ellipses have
@@ -42,7 +42,7 @@ const RIGID_WAVES: usize = 1;
 pub(super) struct Coupling(SquareMatrix);
 
 impl Coupling {
-    /// That of the places of a scene with its plane section; `None` where sections are solved alone.
+    /// Coupling of the places of a scene with its plane section; `None` where sections are solved alone.
     ///
     /// # Errors
     /// A section that cannot be meshed or condensed.

@@ -1,4 +1,4 @@
-//! What can end a run of stations without a result.
+//! Errors of a run of stations.
 
 use crate::condensation::OperatorError;
 use crate::contact::ContactError;
@@ -10,9 +10,9 @@ pub enum StationError {
     /// A value of the scene is outside of its range.
     #[error("{name} is {value}, must be positive")]
     Value {
-        /// Its name and unit.
+        /// Name and unit.
         name: &'static str,
-        /// It.
+        /// The value.
         value: f64,
     },
     /// The ring is displaced by more than its radius.
@@ -20,7 +20,7 @@ pub enum StationError {
         "amplitude is {amplitude_mm} mm, must be below the radius of the ring of {radius_mm} mm"
     )]
     Amplitude {
-        /// Its amplitude, mm.
+        /// Amplitude, mm.
         amplitude_mm: f64,
         /// The radius, mm.
         radius_mm: f64,
@@ -46,7 +46,7 @@ pub enum StationError {
         "amplitude is {amplitude_mm} mm, must be below half of the receptacle's length of {half_block_mm} mm"
     )]
     LeavesReceptacle {
-        /// Its amplitude, mm.
+        /// Amplitude, mm.
         amplitude_mm: f64,
         /// Half of the length, mm.
         half_block_mm: f64,
@@ -69,7 +69,7 @@ pub enum StationError {
         "a part of the contact may stick: amplitude is {amplitude_mm} mm, twice the displacement at which all of it slips is {least_mm:.3e} mm"
     )]
     Sticks {
-        /// Its amplitude, mm.
+        /// Amplitude, mm.
         amplitude_mm: f64,
         /// The least one, mm.
         least_mm: f64,

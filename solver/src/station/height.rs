@@ -17,10 +17,10 @@ pub(super) struct Found {
 pub(super) struct Height {
     /// It, mm; that of the lowest station.
     pub(super) mm: f64,
-    /// Its change in the last increment, mm, and the cycles that this stood for.
+    /// Change in the last increment, mm, and the cycles that this stood for.
     pub(super) change: f64,
     pub(super) cycles: f64,
-    /// That of the loaded, unworn contact, mm; `None` before the first load.
+    /// Height of the loaded, unworn contact, mm; `None` before the first load.
     pub(super) reference: Option<f64>,
     /// Lifts of coupled sections over it, mm, and their changes in the last increment; empty of others.
     pub(super) lifts: Vec<f64>,

@@ -45,7 +45,7 @@ impl Section {
         })
     }
 
-    /// Whether it is at the geometry that a state was computed with.
+    /// Returns `true` if it is at the geometry that a state was computed with.
     pub(super) fn is_of(&self, state: &StationState) -> bool {
         self.built == state.built && self.widened.to_bits() == state.widened.to_bits()
     }

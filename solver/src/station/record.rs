@@ -1,4 +1,4 @@
-//! What a run reports of its stations.
+//! Record of a run of stations.
 
 use crate::along_line::{StationCycle, StationProfile};
 
@@ -9,12 +9,12 @@ pub enum StationOutcome {
     Completed,
     /// A body is nearly consumed under a station.
     WornThrough {
-        /// Its number.
+        /// Number.
         station: usize,
     },
     /// The groove of a station is as deep below an end of its surface as the slider's radius: no graph describes walls that overhang.
     DeeperThanRadius {
-        /// Its number.
+        /// Number.
         station: usize,
     },
     /// The receiver of its cycles ended it.

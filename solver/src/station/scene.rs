@@ -1,4 +1,4 @@
-//! What a run of stations is computed from.
+//! Input of a run of stations.
 
 use super::error::StationError;
 use super::place::places;
@@ -113,7 +113,7 @@ impl StationScene {
         touch(self.line, self.force_n, contact_modulus(slider, receptacle))
     }
 
-    /// Whether line loads that differ along the line change the heights of its sections against each other. Of a ring under a rigid top
+    /// Returns `true` if line loads that differ along the line change the heights of its sections against each other. Of a ring under a rigid top
     /// lifts are below 3e-5 of its depth (`coupling`).
     pub(super) fn is_coupled(&self) -> bool {
         match self.top {

@@ -45,7 +45,7 @@ pub(super) struct Increment {
     pub(super) to: f64,
     /// Cycles that it stands for.
     pub(super) cycles: f64,
-    /// Whether Lemke's method is tried.
+    /// True if Lemke's method is tried.
     pub(super) lemke: bool,
     /// Number of the increment in its cycle and their number, if the last cycle has one like it to start from.
     pub(super) like: Option<(usize, usize)>,

@@ -1,4 +1,4 @@
-//! What carries the sections: one increment of all stations.
+//! The top that carries the sections: one increment of all stations.
 //!
 //! Under an even load each section is solved alone. Under a rigid top the common height v follows from
 //!   r(v) = sum_j w_j P_j(v + g_j) - F + K (v_0 - v) = 0
@@ -27,7 +27,7 @@ const FIRST_STEP: f64 = 1.0;
 pub(super) enum Unsolved {
     /// A section has none.
     Section {
-        /// Its number.
+        /// Number.
         station: usize,
         /// Why.
         source: ContactError,

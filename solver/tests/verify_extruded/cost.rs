@@ -1,4 +1,4 @@
-//! What extruded bodies cost.
+//! Cost of extruded bodies.
 
 use std::ops::ControlFlow;
 use std::time::Instant;

@@ -97,7 +97,7 @@ fn doses_of_barwells_law_add_up_beside_other_features() {
     }
 }
 
-/// A floor that the whole contact crosses reaches the depth where the course ends, and no further; walls go on.
+/// A floor that the whole contact crosses reaches the depth where the course ends, and no further; walls continue.
 #[test]
 fn a_decelerating_course_ends_while_the_run_goes_on() {
     let law = Barwell {

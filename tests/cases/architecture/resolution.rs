@@ -225,7 +225,7 @@ impl Sources {
         };
         let here = &self.modules[module];
         let child = here.children.get(name);
-        // A module and a function can share a name; a path goes on through the module and ends at the function.
+        // A module and a function can share a name; a path continues through the module and ends at the function.
         if let Some(child) = child
             && !rest.is_empty()
         {

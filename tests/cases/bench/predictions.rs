@@ -21,7 +21,7 @@ pub(crate) const TOLERANCES: [f64; 5] = [0.1, 0.05, 0.02, 0.01, 0.003];
 /// An estimate and the measured value.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Pair {
-    /// Its name.
+    /// Name.
     pub(crate) what: &'static str,
     /// Estimate of the plan.
     pub(crate) expected: f64,

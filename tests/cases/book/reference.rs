@@ -1,5 +1,5 @@
 //! The reference pages: fields of a specification and columns of the wear history from the OpenAPI document, commands from their help.
-//! `FRETWEAR_WRITE_BOOK=1` writes the pages anew.
+//! `FRETWEAR_WRITE_BOOK=1` writes the pages again.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;

@@ -65,7 +65,7 @@ async fn a_run_that_is_refined_has_a_bar_for_each_part_and_its_reason() {
     browser.close().await;
 }
 
-/// Shows the history of a job as that of a run that goes on.
+/// Shows the history of a job as that of a run that continues.
 fn charts(id: &str, then: &str) -> String {
     format!(
         "Promise.all([import('/assets/job/history.js'), import('/assets/parts/address.js'), fetch('/v1/jobs/{id}').then((answer) => answer.json())]).then(async ([{{ HistoryCharts }}, {{ choices }}, job]) => {{ \

@@ -1,4 +1,4 @@
-//! Pages while the service cannot be reached: they say so, and go on by themselves when it is back.
+//! Pages while the service cannot be reached: they say so, and continue by themselves when it is back.
 
 use tests::Browser;
 

@@ -1,4 +1,4 @@
-//! What the pages cost a browser, printed; no time or size is asserted.
+//! Cost of the pages in a browser, printed; no time or size is asserted.
 
 use std::time::Duration;
 
@@ -20,7 +20,7 @@ const SINCE: &str = "performance.now()";
 /// A page that has loaded what it shows.
 const COMPLETE: &str = "!document.getElementById('content').hasAttribute('aria-busy')";
 
-/// Opens a page anew and returns the time until a condition holds, ms; a look every 50 ms.
+/// Opens a page again and returns the time until a condition holds, ms; a look every 50 ms.
 async fn time_until(browser: &Browser, path: &str, condition: &str) -> f64 {
     browser.open("/docs").await;
     browser.open(path).await;

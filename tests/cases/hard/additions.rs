@@ -1,4 +1,4 @@
-//! What a random specification may have besides a bare contact: heat, a current, platings, friction that changes, a periodic motion.
+//! Additions of a random specification to a bare contact: heat, a current, platings, friction that changes, a periodic motion.
 
 use serde_json::{Value, json};
 

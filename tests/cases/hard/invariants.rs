@@ -1,4 +1,4 @@
-//! Invariants of every run: one list, asserted by every case; contacts of finite extent have some of their own (`across`).
+//! Invariants of every run: one list, asserted by every case; contacts of finite width have some of their own (`across`).
 
 pub(in crate::hard) mod across;
 

@@ -80,7 +80,7 @@ fn is_cheap_section(scene: &Scene) -> bool {
         && (scene.accuracy.increments_per_cycle.is_some() || way <= 60.0)
 }
 
-/// The same of a contact of finite extent: a section for each station, of few increments; a window of few cells.
+/// The same of a contact of finite width: a section for each station, of few increments; a window of few cells.
 fn is_cheap_across(scene: &Scene) -> bool {
     let way = |half_width: f64| scene.motion.amplitude_mm() / half_width;
     match scene.dimension {

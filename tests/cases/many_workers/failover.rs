@@ -1,4 +1,4 @@
-//! The primary of a PostgreSQL database is killed and its synchronous standby promoted, and then a service is killed: workers go on, and
+//! The primary of a PostgreSQL database is killed and its synchronous standby promoted, and then a service is killed: workers continue, and
 //! every job is solved once.
 
 use std::sync::Arc;

@@ -13,7 +13,7 @@ pub struct DerivedMotion {
     pub held_amplitude_mm: f64,
     /// Amplitude that is imposed on the contact, mm.
     pub slip_amplitude_mm: f64,
-    /// Whether the contact does not slip at all.
+    /// True if the contact does not slip at all.
     pub sticks: bool,
     /// Acceleration from which on the contact slips, multiples of 9.806 65 m/s^2; absent where no sine accelerates it, or
     /// the clearance ends its displacement before.

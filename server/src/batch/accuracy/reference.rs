@@ -31,7 +31,7 @@ pub(crate) struct Converged {
 struct Varied {
     name: &'static str,
     value: fn(Settings) -> f64,
-    /// Its step h.
+    /// Step h.
     step: fn(Settings) -> f64,
 }
 

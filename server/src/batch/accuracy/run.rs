@@ -8,11 +8,11 @@ use crate::batch::accuracy::run_accuracy::RunAccuracy;
 /// A run of a study that has ended.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
-    /// Its accuracy setting.
+    /// Accuracy setting.
     pub accuracy: RunAccuracy,
     /// Processor seconds.
     pub cpu_s: f64,
-    /// Its result, or why it failed.
+    /// Result, or why it failed.
     pub found: Result<Found, String>,
 }
 

@@ -31,7 +31,7 @@ pub(super) fn number(request: &SweepRequest) -> u64 {
 }
 
 impl<'a> Variations<'a> {
-    /// Those of a request.
+    /// Variations of a request.
     pub(super) fn of(request: &'a SweepRequest) -> Self {
         let resolved = serde_json::to_vec(&request.base)
             .ok()

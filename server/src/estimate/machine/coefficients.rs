@@ -26,9 +26,9 @@ pub enum MachineError {
     /// An impossible coefficient.
     #[error("{name} of the machine is {value}; it must be finite and positive")]
     Coefficient {
-        /// Its name.
+        /// Name.
         name: &'static str,
-        /// Its value.
+        /// Value.
         value: f64,
     },
 }

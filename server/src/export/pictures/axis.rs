@@ -5,9 +5,9 @@
 pub struct Axis {
     /// Quantity and unit.
     pub title: String,
-    /// Its scale.
+    /// Scale.
     pub scale: Scale,
-    /// Its range.
+    /// Range.
     pub range: AxisRange,
 }
 

@@ -82,7 +82,7 @@ pub(super) fn drawing(
     Ok(sized_in_pixels(&text, size))
 }
 
-/// Whether XML 1.0 allows a character (section 2.2).
+/// Returns `true` if XML 1.0 allows a character (section 2.2).
 fn is_xml(character: char) -> bool {
     matches!(character, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
 }

@@ -27,7 +27,7 @@ const BAR: (i32, i32) = (px(20), px(40));
 /// A picture of quantities over an area.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColourMap {
-    /// Its title.
+    /// Title.
     pub title: String,
     /// Panels from top to bottom.
     pub panels: Vec<MapPanel>,
@@ -36,7 +36,7 @@ pub struct ColourMap {
 /// A quantity over an area.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapPanel {
-    /// Its name and unit.
+    /// Name and unit.
     pub quantity: String,
     /// Title of the horizontal axis.
     pub x: String,

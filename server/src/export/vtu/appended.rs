@@ -51,7 +51,7 @@ pub(super) struct Grid {
 /// The file of a grid.
 ///
 /// # Errors
-/// That of the compressor.
+/// The error of the compressor.
 pub(super) fn file(grid: &Grid) -> std::io::Result<Vec<u8>> {
     let (mut head, mut data) = (String::new(), Vec::new());
     let mut section = |name: &str, arrays: &[Array]| -> std::io::Result<()> {

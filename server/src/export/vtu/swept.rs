@@ -24,7 +24,7 @@ type Component = (&'static str, fn(&Stress) -> f64);
 /// Content of the file of the fields at one position.
 ///
 /// # Errors
-/// That of the compressor.
+/// The error of the compressor.
 pub(super) fn bytes(fields: &LineFields) -> std::io::Result<Vec<u8>> {
     appended::file(&grid(fields))
 }

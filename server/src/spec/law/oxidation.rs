@@ -1,4 +1,4 @@
-//! What the oxidational wear laws share: their constants, all of which are asked from the user. Published are those of steels alone.
+//! Constants of the oxidational wear laws; all of them are required from the user. Published are those of steels alone.
 
 use std::ops::RangeInclusive;
 

@@ -1,4 +1,4 @@
-//! What the laws of which a power of the depth adds share: their constants, all of which are asked from the user.
+//! Constants of the laws of which a power of the depth adds; all of them are required from the user.
 
 use std::ops::RangeInclusive;
 

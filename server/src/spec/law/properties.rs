@@ -1,4 +1,4 @@
-//! What the rate of each wear law depends on, and which of its constants set it.
+//! Dependences of the rate of each wear law, and the constants that set it.
 
 use api::spec::{WearLaw, WearLawName};
 

@@ -1,4 +1,4 @@
-//! The dimension that a contact calls for: plane strain where its sections wear alike, a point where the contact of a crown stays within the
+//! The dimension that a contact requires: plane strain where its sections wear alike, a point where the contact of a crown stays within the
 //! width, else a line of sections (`solver::effects::extent`).
 
 use api::spec::{Dimension, Spec};

@@ -179,7 +179,7 @@ pub(super) fn check_overrides_of_others(filled: &Spec, diagnostics: &mut Diagnos
 }
 
 impl Line {
-    /// Its extent across the motion.
+    /// Extent across the motion.
     pub(super) fn extent(&self) -> Extent {
         let width_mm = self.shape.length_mm();
         match self.shape {

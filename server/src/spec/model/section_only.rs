@@ -1,4 +1,4 @@
-//! What only a section has: other contacts refuse it.
+//! Fields and laws that only a section has: other contacts refuse them.
 
 use api::spec::Spec;
 use solver::scene::{Friction, Motion, Scene};

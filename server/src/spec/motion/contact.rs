@@ -1,4 +1,4 @@
-//! What a derived motion takes from the rest of a specification: friction and force of a contact.
+//! Inputs of a derived motion from the rest of a specification: friction and force of a contact.
 
 use api::spec::{DerivedMotion, Drive, Motion, MotionKind};
 use solver::scene;

@@ -30,7 +30,7 @@ pub(crate) struct ImposedMotion {
 }
 
 impl ImposedMotion {
-    /// Whether its duration gives its number of cycles.
+    /// Returns `true` if its duration gives its number of cycles.
     pub(in crate::spec) fn is_timed(&self) -> bool {
         self.duration_cycles.is_some()
     }

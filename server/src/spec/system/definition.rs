@@ -10,7 +10,7 @@ use crate::spec::system::shapes::Shapes;
 pub(crate) struct SystemDefinition {
     /// Description in a few words.
     pub(crate) description: &'static str,
-    /// Its dimensions, in the order in which defaults are computed from one another.
+    /// Dimensions, in the order in which defaults are computed from one another.
     pub(super) dimensions: &'static [Dimension],
     /// Builds both bodies from the dimensions.
     pub(super) shapes: fn(&System) -> Shapes,
@@ -22,10 +22,10 @@ pub(crate) struct SystemDefinition {
 
 /// A dimension of a kind.
 pub(super) struct Dimension {
-    /// Its field in the specification.
+    /// Field in the specification.
     pub(super) name: &'static str,
     pub(super) field: fn(&mut System) -> &mut Option<f64>,
-    /// Its default, from the dimensions before it; `None` for an optional dimension.
+    /// Default, from the dimensions before it; `None` for an optional dimension.
     pub(super) default: fn(&System) -> Option<f64>,
     /// Provenance of the default.
     pub(super) provenance: Provenance,

@@ -20,7 +20,7 @@ pub(crate) struct ArchardPreset {
 /// A layer of a preset's plating. It wears by Archard's law with the hardness of its material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct LayerPreset {
-    /// Its material in the library.
+    /// Material in the library.
     pub(crate) material: Sourced<&'static str>,
     pub(crate) thickness_um: Sourced<f64>,
     /// Wear coefficient, -.

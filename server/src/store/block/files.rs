@@ -52,7 +52,7 @@ impl Block {
         })
     }
 
-    /// Whether a name is that of a document, a part of the content.
+    /// Returns `true` if a name is that of a document, a part of the content.
     pub(in crate::store) fn has_document(&self, name: &str) -> bool {
         self.documents().any(|file| file.name == name)
     }

@@ -66,7 +66,7 @@ operations! {
     /// transaction. Returns the new status, or `None` if the lease was lost.
     pub(in crate::store) async fn write_end(&self, lease: Lease, update: &JobUpdate, end: &End) -> Result<Option<Status>, StoreError>;
 
-    /// Whether a transition ends a claimed job instead of returning it to the queue.
+    /// True if a transition ends a claimed job instead of returning it to the queue.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.

@@ -39,7 +39,7 @@ impl PostgresStore {
 pub(super) struct NewBlock<'a> {
     pub(super) job: Uuid,
     pub(super) block: &'a EncodedBlock,
-    /// Whether the job has succeeded.
+    /// True if the job has succeeded.
     pub(super) succeeded: bool,
 }
 

@@ -36,7 +36,7 @@ impl Compared {
         Self { at, then, stepped }
     }
 
-    /// Whether leases that seem to have ended have ended.
+    /// Returns `true` if leases that seem to have ended have ended.
     pub(super) fn is_steady(&self) -> bool {
         let since = self.stepped.map(|stepped| self.at.duration_since(stepped));
         since.is_none_or(|since| since >= UNSTEADY)

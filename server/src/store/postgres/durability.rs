@@ -10,15 +10,15 @@ use sqlx::postgres::PgConnection;
     reason = "settings of a server are independent of each other"
 )]
 struct Durability {
-    /// Whether it waits for its disk.
+    /// True if it waits for its disk.
     fsync: bool,
-    /// Whether it can repair pages that were half written.
+    /// True if it can repair pages that were half written.
     full_page_writes: bool,
-    /// Whether a commit waits for its own disk.
+    /// True if a commit waits for its own disk.
     is_commit_awaited: bool,
-    /// Whether a commit waits for a standby.
+    /// True if a commit waits for a standby.
     is_standby_awaited: bool,
-    /// Whether it has standbys.
+    /// True if it has standbys.
     has_standbys: bool,
 }
 

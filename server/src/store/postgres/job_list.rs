@@ -252,7 +252,7 @@ fn push_conditions(query: &mut QueryBuilder<Postgres>, filter: &Filter) {
     }
 }
 
-/// Whether a filter has the character U+0000.
+/// Returns `true` if a filter has the character U+0000.
 fn has_nul(filter: &Filter) -> bool {
     let texts = filter.system.iter().chain(&filter.text);
     let labels = filter.labels.iter().flat_map(|(key, value)| [key, value]);

@@ -78,7 +78,7 @@ impl PostgresStore {
         })
     }
 
-    /// Whether the clock of the database has gone as that of this process.
+    /// Returns `true` if the clock of the database has gone as that of this process.
     async fn is_steady(&self, now: Now) -> bool {
         if self.given_now().is_some() {
             return true;

@@ -128,7 +128,7 @@ impl Verified for PgPool {
     }
 }
 
-/// Whether two identities are of two databases. A role that may not read that of the server has only the number of the database.
+/// Returns `true` if two identities are of two databases. A role that may not read that of the server has only the number of the database.
 fn is_another(noted: &str, own: &str) -> bool {
     match (noted.split_once('/'), own.split_once('/')) {
         (Some(noted), Some(own)) => noted != own,

@@ -1,4 +1,4 @@
-//! What writes under a lease lead to.
+//! Results of writes under a lease.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ pub(super) type Waiting = Pending<Arc<Write>, Option<Written>>;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Written {
     pub(super) effect: Effect,
-    /// Whether it was not this write but an earlier one of the same number.
+    /// True if it was not this write but an earlier one of the same number.
     pub(super) is_repeated: bool,
 }
 
@@ -26,7 +26,7 @@ pub(super) struct Written {
 pub(super) enum Effect {
     /// The job is held.
     Held {
-        /// Whether its end was requested.
+        /// True if its end was requested.
         cancel_requested: bool,
     },
     /// The job has ended, or waits again; `None` if its transition is not allowed.

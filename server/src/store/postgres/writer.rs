@@ -19,7 +19,7 @@ use crate::store::{StoreError, Write, WriteKind};
 pub(super) enum Locked {
     /// It is waited for.
     Wait,
-    /// Its job is left out.
+    /// Job is left out.
     Skip,
 }
 

@@ -159,7 +159,7 @@ async fn complete(database: &Path, damaged: Vec<Damage>) -> Result<Vec<String>, 
     Ok(said)
 }
 
-/// Ends all leases of a copy: their workers go on writing to the original.
+/// Ends all leases of a copy: their workers continue writing to the original.
 async fn end_leases(connection: &mut SqliteConnection) -> Result<(), sqlx::Error> {
     sqlx::query("UPDATE jobs SET lease = lease + ?, lease_expires_at = ? WHERE status = 'running'")
         .bind(Lease::step())

@@ -206,7 +206,7 @@ fn this_process() -> String {
     parts().unwrap_or_default()
 }
 
-/// Whether a process has certainly ended, or is this one.
+/// Returns `true` if a process has certainly ended, or is this one.
 fn has_ended(process: &str) -> bool {
     let parsed = || {
         let (space, rest) = process.split_once(" pid ")?;

@@ -19,7 +19,7 @@ use crate::store::{Lease, Reclaimed, StoreError};
 enum Lost {
     /// Those whose lease has ended by this time, ms.
     EndedBy(i64),
-    /// Those of workers in the process that served before.
+    /// Leases of workers in the process that served before.
     OfLastProcess,
 }
 

@@ -222,7 +222,7 @@ async fn a_database_with_a_checkpoint_elsewhere_is_not_opened_without_it(databas
     opened(&place, Some("objects")).await.expect("a store");
 }
 
-/// Its original names the same objects.
+/// Original names the same objects.
 #[tokio::test]
 #[cfg_attr(not(has_postgresql), ignore = "needs the programs of PostgreSQL")]
 async fn a_copy_of_a_database_of_a_server_removes_no_objects_and_writes_no_checkpoints() {

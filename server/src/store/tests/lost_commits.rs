@@ -1,4 +1,4 @@
-//! A database that has lost commits, by a failover or a restored backup, while the workers of its jobs go on.
+//! A database that has lost commits, by a failover or a restored backup, while the workers of its jobs continue.
 
 use super::*;
 use crate::export::documents::VTU;

@@ -43,7 +43,7 @@ impl WithObjects {
         Objects::open(&format!("file://{}", folder.display())).expect("opened")
     }
 
-    /// Whether the first file of a job is marked as damaged.
+    /// Returns `true` if the first file of a job is marked as damaged.
     async fn is_marked(&self, id: Uuid) -> bool {
         let manifest = self.store.manifest(id).await.expect("the store");
         manifest[0].damaged.is_some()

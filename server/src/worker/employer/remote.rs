@@ -234,7 +234,7 @@ impl Employer for Remote {
     }
 }
 
-/// Whether a write is sent together with others: it is small, and the service need not make the documents of a job for it.
+/// Returns `true` if a write is sent together with others: it is small, and the service need not make the documents of a job for it.
 fn is_quick(write: &Write) -> bool {
     let is_made = matches!(write.kind, WriteKind::Renew(_)) || write.update.block.is_some();
     is_made && write.update.is_small()

@@ -1,4 +1,4 @@
-//! What can leave a normal contact without a solution.
+//! Errors of a normal contact.
 
 /// Why a contact has no solution.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -26,7 +26,7 @@ pub enum AreaError {
     /// The force does not press the bodies together.
     #[error("normal force is {force_n} N, must be positive")]
     Force {
-        /// It.
+        /// Normal force, N.
         force_n: f64,
     },
 }

@@ -55,7 +55,7 @@ pub struct ShearCompliance {
 }
 
 impl ShearCompliance {
-    /// That of two bodies.
+    /// Compliance of two bodies.
     pub fn new(bodies: [Elastic; 2]) -> Self {
         let sum = |part: fn(f64) -> f64| {
             let terms = bodies.map(|body| part(body.poisson_ratio) / Lame::from(body).mu);

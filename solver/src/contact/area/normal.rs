@@ -67,7 +67,7 @@ const STALLED: usize = 30;
 
 /// Convergence of the iteration.
 struct Convergence {
-    /// Product of the last residual with the preconditioned one; 0 where directions begin anew.
+    /// Product of the last residual with the preconditioned one; 0 where directions begin again.
     product: f64,
     /// Smallest residual, and iterations since.
     least: f64,
@@ -205,7 +205,7 @@ impl NormalContact {
     }
 
     /// Chooses the next direction; returns the product of the residual with the preconditioned one. The last product is 0
-    /// where directions begin anew.
+    /// where directions begin again.
     fn choose_direction(&mut self, pressure: &[f64], last: f64) -> f64 {
         let Fields {
             residual,

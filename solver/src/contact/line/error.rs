@@ -14,7 +14,7 @@ pub enum ContactError {
         iterations: usize,
         /// Relative gap residual.
         residual: f64,
-        /// Its tolerance.
+        /// Tolerance.
         tolerance: f64,
         /// Nodes whose status changed in the last iteration.
         changes: usize,
@@ -68,7 +68,7 @@ pub enum ContactError {
 }
 
 impl ContactError {
-    /// Whether wider zones of fine elements would help.
+    /// Returns `true` if wider zones of fine elements would help.
     pub(crate) fn needs_wider_zones(self) -> bool {
         matches!(self, Self::WiderThanZone { .. })
     }

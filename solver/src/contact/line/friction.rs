@@ -24,7 +24,7 @@ pub(super) struct Coefficient<'a> {
 enum Nodes<'a> {
     /// The same at all of them.
     Uniform(f64),
-    /// That of each, from the first coupled node on.
+    /// Coefficient of each node, from the first coupled node on.
     Nodal(&'a [f64]),
 }
 

@@ -19,7 +19,7 @@ pub(super) struct Setting {
     pub(super) pairing_x: f64,
     /// Load at height 0, N/mm.
     pub(super) load: f64,
-    /// Its increase per mm of height.
+    /// Increase per mm of height.
     pub(super) spring: f64,
 }
 
@@ -60,7 +60,7 @@ pub(super) struct Geometry {
     pub(super) slopes: LocalSlopes,
     /// Gap of the worn bodies at height 0 under the far-face load there, mm.
     pub(super) gap: Vec<f64>,
-    /// Its change per height by that load's growth.
+    /// Change per height by that load's growth.
     pub(super) sag: Vec<f64>,
 }
 

@@ -338,7 +338,7 @@ impl Solver {
     }
 }
 
-/// Whether a loaded contact does not move: another solve would only change its round-off.
+/// Returns `true` if a loaded contact does not move: another solve would only change its round-off.
 fn is_at_rest(last: &ContactState, to: Displacement<'_>) -> bool {
     let distance = (to.slider_x - last.slider_x).abs() + to.surface_slip.abs() + to.along.abs();
     last.reference_height.is_some() && to.height.is_none() && distance <= 0.0

@@ -64,9 +64,9 @@ pub(super) struct Newton {
 /// Change of the contact with a given height.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct HeightResponse<'a> {
-    /// That of the pressures of the coupled nodes, MPa/mm.
+    /// Response of the pressures of the coupled nodes, MPa/mm.
     pub(super) pressure: &'a [f64],
-    /// That of the vertical force, N/mm per mm.
+    /// Response of the vertical force, N/mm per mm.
     pub(super) force: f64,
 }
 
@@ -223,7 +223,7 @@ impl Newton {
     }
 }
 
-/// Whether the iteration has stalled at round-off: no change of status, and a residual, over its tolerance, that was
+/// Returns `true` if the iteration has stalled at round-off: no change of status, and a residual, over its tolerance, that was
 /// not halved.
 fn has_stalled((last, changes): (f64, usize), residual: f64) -> bool {
     changes == 0 && residual <= STALLED_WITHIN && 2.0 * residual > last

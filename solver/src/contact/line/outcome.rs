@@ -1,4 +1,4 @@
-//! What an increment leaves: the new contact, wear, energy and residuals.
+//! Result of an increment: the new contact, wear, energy and residuals.
 
 use super::friction::Coefficient;
 use super::geometry::{Geometry, Setting};

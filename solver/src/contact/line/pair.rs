@@ -118,11 +118,11 @@ pub struct Displacement<'a> {
     pub along: f64,
     /// Rigid height of the slider, mm, under a far face that is held; that at which its load is carried if absent.
     pub height: Option<f64>,
-    /// Whether only the height and the start differ from the last increment of the same solver: what that has assembled is used again.
+    /// True if only the height and the start differ from the last increment of the same solver: what that has assembled is used again.
     pub repeated: bool,
     /// Number of equal slips that each slip represents in the wear.
     pub cycles: f64,
-    /// Whether Lemke's method is tried where Newton's method does not converge: reliable, but far more expensive than
+    /// True if Lemke's method is tried where Newton's method does not converge: reliable, but far more expensive than
     /// two half increments.
     pub lemke: bool,
     /// Where the iteration starts; the last contact, moved with the slider, if it is absent.
@@ -148,7 +148,7 @@ pub struct Surfaces<'a> {
 }
 
 impl Surfaces<'_> {
-    /// Whether all places have the coefficient of friction of the interface.
+    /// Returns `true` if all places have the coefficient of friction of the interface.
     pub(super) fn has_uniform_friction(&self) -> bool {
         self.friction.slider.is_none() && self.friction.receptacle.is_none()
     }

@@ -28,7 +28,7 @@ pub(super) struct Problem<'a> {
     pub(super) master_slope: &'a [f64],
     /// Coefficient of the friction that acts on the bodies, -.
     pub(super) friction: Coefficient<'a>,
-    /// Whether each node sticks or slips by the deformation; each slips as imposed otherwise.
+    /// True if each node sticks or slips by the deformation; each slips as imposed otherwise.
     pub(super) tracks_slip: bool,
     /// Vertical load at height 0, N/mm, and its increase per mm of height.
     pub(super) load: f64,
@@ -37,11 +37,11 @@ pub(super) struct Problem<'a> {
     pub(super) sag: &'a [f64],
     /// Slip of each node before the new forces and the new height are known, mm.
     pub(super) fixed_slip: &'a [f64],
-    /// Whether anything wears in this increment.
+    /// True if anything wears in this increment.
     pub(super) wears: bool,
     /// Displacement of the contact over the slave in this increment, mm.
     pub(super) travel: f64,
-    /// Whether nothing was loaded before.
+    /// True if nothing was loaded before.
     pub(super) first_load: bool,
     /// Imposed slip: the displacement and the additional slip of the slider's surface, mm.
     pub(super) step: f64,

@@ -13,7 +13,7 @@ use crate::number::count;
 pub(super) struct Response {
     /// Number of coupled nodes.
     nodes: usize,
-    /// Whether jumps and shears are computed.
+    /// True if jumps and shears are computed.
     tangential: bool,
     /// Columns in the order in which they are first computed: gaps, then jumps per unit of an unknown, mm/MPa. Gaps only, where
     /// slip is imposed.

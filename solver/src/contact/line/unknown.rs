@@ -23,7 +23,7 @@ impl Unknown {
         Self::Pressure(node, status)
     }
 
-    /// Its node.
+    /// Node.
     pub(super) fn node(self) -> usize {
         match self {
             Self::Pressure(node, _) | Self::Shear(node) => node,
@@ -43,7 +43,7 @@ impl Unknown {
         [tangential - slope * normal, normal + slope * tangential]
     }
 
-    /// Its value in an iterate, MPa.
+    /// Value in an iterate, MPa.
     pub(super) fn value(self, it: &Iterate) -> f64 {
         match self {
             Self::Pressure(node, _) => it.pressure[node],

@@ -84,13 +84,13 @@ impl WearCoupling {
         matches!(self.wear.of(side), Some(SurfaceWear::ByDose(_)))
     }
 
-    /// Whether a rate depends on the local state or on the depth.
+    /// Returns `true` if a rate depends on the local state or on the depth.
     pub(super) fn varies(&self) -> bool {
         let varies = |wear: Option<SurfaceWear>| wear.is_some_and(|wear| wear.uniform().is_none());
         varies(self.wear.slider) || varies(self.wear.receptacle)
     }
 
-    /// Whether a side wears by no path.
+    /// Returns `true` if a side wears by no path.
     fn has_power(&self) -> bool {
         let has = |wear| matches!(wear, Some(SurfaceWear::ByPower { .. }));
         has(self.wear.slider) || has(self.wear.receptacle)

@@ -34,7 +34,7 @@ impl PlanesWear {
         }
     }
 
-    /// That of a plane.
+    /// Wear coupling of a plane.
     pub(super) fn of(&self, plane: usize) -> &WearCoupling {
         &self.planes[plane.min(self.planes.len() - 1)]
     }

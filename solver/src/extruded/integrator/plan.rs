@@ -1,4 +1,4 @@
-//! What the schedule of a run is chosen from: one jump and one series of increments for all planes.
+//! Inputs of the schedule of a run: one jump and one series of increments for all planes.
 
 use super::ExtrudedIntegrator;
 use crate::extruded::state::Planes;

@@ -52,7 +52,7 @@ impl Table {
         &self.points
     }
 
-    /// Whether the coefficient is not the same everywhere.
+    /// Returns `true` if the coefficient is not the same everywhere.
     pub fn changes(&self) -> bool {
         self.points.len() > 1
     }

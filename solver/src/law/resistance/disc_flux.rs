@@ -44,7 +44,7 @@ pub(super) struct Node {
 /// Integrals that do not depend on the conductors.
 pub(super) struct Integrals {
     pub(super) nodes: Vec<Node>,
-    /// Those of F_m F_n alone: A of one material of resistivity 1.
+    /// Integrals of F_m F_n alone: A of one material of resistivity 1.
     pub(super) uniform: SMatrix<f64, FUNCTIONS, FUNCTIONS>,
     /// F_m(0).
     pub(super) at_zero: Functions,

@@ -9,7 +9,7 @@
 pub struct Film {
     /// Specific resistance sigma_f, ohm mm^2; of a film that grows after the time t0.
     pub specific_resistance_ohm_mm2: f64,
-    /// Its growth; `None` for a film that is there at once.
+    /// Growth; `None` for a film that is there at once.
     pub growth: Option<Growth>,
 }
 

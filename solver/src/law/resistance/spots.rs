@@ -25,7 +25,7 @@ pub enum Deformation {
 /// The tip of a ball on a flat.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Asperity {
-    /// Its radius R, mm.
+    /// Radius R, mm.
     pub radius_mm: f64,
     /// Contact modulus E*, MPa.
     pub modulus_mpa: f64,

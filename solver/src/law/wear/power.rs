@@ -3,7 +3,7 @@
 //! p pressure, MPa; w the measure of the course: time of slip, time, or repetitions of the load; h depth, mm; A a factor in the units of
 //! the others.
 //!
-//! The course depends on h alone, not on when it was worn (strain hardening): under another pressure it goes on from the depth that has
+//! The course depends on h alone, not on when it was worn (strain hardening): under another pressure it continues from the depth that has
 //! been reached. An increment is exact for a constant pressure, h1 = (h0^(1/c) + A p^m dw)^c, whatever its length; Euler's backward
 //! step is not, and where c < 1 has no finite rate to begin with. Limiting case: c = m = 1 with the time of slip is Archard's law.
 //!
@@ -101,7 +101,7 @@ impl PowerLaw {
         }
     }
 
-    /// Whether it counts repetitions of the load.
+    /// Returns `true` if it counts repetitions of the load.
     pub fn counts_repetitions(&self) -> bool {
         self.measure == Measure::Repetitions
     }

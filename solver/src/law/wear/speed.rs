@@ -39,7 +39,7 @@ impl SpeedLaw {
         }
     }
 
-    /// Whether it is a law of time.
+    /// Returns `true` if it is a law of time.
     pub fn is_by_time(&self) -> bool {
         match self {
             Self::Quinn(_) | Self::MildOxidation(_) => true,
@@ -47,7 +47,7 @@ impl SpeedLaw {
         }
     }
 
-    /// Whether the temperature of the contact is given.
+    /// Returns `true` if the temperature of the contact is given.
     pub(super) fn has_given_temperature(&self) -> bool {
         let surface = match self {
             Self::Quinn(law) => law.surface,

@@ -1,4 +1,4 @@
-//! A contact of finite extent in a run: a point, a line or extruded bodies.
+//! A contact of finite width in a run: a point, a line or extruded bodies.
 
 use crate::SolveError;
 use crate::checkpoint::{FiniteRun, Resumable};
@@ -8,7 +8,7 @@ use crate::record::{Checks, CycleReport, Exposed, Outcome, Resolution, Snapshot}
 use crate::scene::Scene;
 use crate::sides::Sides;
 
-/// A contact of finite extent that computes its cycles, with what a plan simulates.
+/// A contact of finite width that computes its cycles, with what a plan simulates.
 pub(super) trait Contact: Sized {
     /// State between two computed cycles.
     type State: Clone;

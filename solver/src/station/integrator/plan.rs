@@ -1,4 +1,4 @@
-//! What the schedule of a run is chosen from: the jump that the worst leading station allows, and the increments that the finest one needs.
+//! Inputs of the schedule of a run: the jump that the worst leading station allows, and the increments that the finest one needs.
 
 use super::LineIntegrator;
 use crate::law::elastic::contact_modulus;
@@ -27,7 +27,7 @@ impl LineIntegrator {
         numbers.fold(1, usize::max)
     }
 
-    /// Whether a station decides on the schedule: of a ring all do, whose loads change within a stroke; of a straight line those that carry
+    /// Returns `true` if a station decides on the schedule: of a ring all do, whose loads change within a stroke; of a straight line those that carry
     /// enough, because a narrow contact where a crown touches next wears little.
     fn leads(&self, station: usize) -> bool {
         if let LineShape::Ring { .. } = self.scene.line {

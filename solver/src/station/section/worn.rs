@@ -1,4 +1,4 @@
-//! What a station has worn, and what follows from it: its end, the next jump, other operators.
+//! Consequences of the wear of a station: its end, the next jump, other operators.
 
 use std::sync::Arc;
 
@@ -34,7 +34,7 @@ impl Station {
         along_line::groove_mm(&self.state.depth.receptacle)
     }
 
-    /// Whether a body is nearly consumed.
+    /// Returns `true` if a body is nearly consumed.
     pub(in crate::station) fn is_worn_through(&self) -> bool {
         self.spines.are_worn_through(&self.state.depth)
     }
@@ -65,7 +65,7 @@ impl Station {
         })
     }
 
-    /// Whether a rate depends on the worn depth.
+    /// Returns `true` if a rate depends on the worn depth.
     pub(in crate::station) fn wears_by_depth(&self) -> bool {
         let wear = self.interface.wear;
         let by_depth = |side| wear.of(side).is_some_and(SurfaceWear::depends_on_depth);
@@ -82,7 +82,7 @@ impl Station {
         control.update((worn.weights(), 0.0), worn.depths(), jump);
     }
 
-    /// Whether the section has drifted from the geometry of its operators; these are then those of the present depths.
+    /// Returns `true` if the section has drifted from the geometry of its operators; these are then those of the present depths.
     pub(in crate::station) fn drifts(&mut self, accuracy: &Accuracy) -> bool {
         let model = &self.section.model;
         let drifted = model.relocates && ale::has_drifted(model, &self.state.depth, accuracy);

@@ -1,4 +1,4 @@
-//! Invariants of every run of a contact of finite extent: a list of its own, beside that of a section.
+//! Invariants of every run of a contact of finite width: a list of its own, beside that of a section.
 
 use solver::record::{Checks, CycleReport, Snapshot, TractionField};
 use solver::scene::Effect;

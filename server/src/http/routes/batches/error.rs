@@ -76,7 +76,7 @@ impl App {
         Ok(exists.then_some(()).ok_or(BatchError::Missing(batch))?)
     }
 
-    /// Cancels or deletes the first jobs of a batch, whether the client waits for it or not. A task of the service goes on with those that are
+    /// Cancels or deletes the first jobs of a batch, whether the client waits for it or not. A task of the service continues with those that are
     /// left.
     pub(super) async fn end_jobs_of(
         &self,

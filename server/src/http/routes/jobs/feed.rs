@@ -85,7 +85,7 @@ struct FeedTail {
     after: i64,
     /// Fetched, not yet sent.
     pending: VecDeque<Event>,
-    /// Whether the last fetch has found changes.
+    /// True if the last fetch has found changes.
     has_sent: bool,
     changes: AllChanges,
     _counted: Counted,

@@ -107,7 +107,7 @@ pub(crate) fn retry_after_s(job: &Job) -> u64 {
     pause.map_or(1, |pause| pause.as_secs())
 }
 
-/// Whether a long poll ends with this job.
+/// Returns `true` if a long poll ends with this job.
 fn is_news(job: &StoredJob, known: Option<&str>) -> bool {
     match known {
         Some(known) => !has_version(known, job),
@@ -120,7 +120,7 @@ fn etag(job: &StoredJob) -> String {
     format!("\"{}{waits}\"", job.version)
 }
 
-/// Whether `If-None-Match` lists the version of the job.
+/// Returns `true` if `If-None-Match` lists the version of the job.
 fn has_version(known: &str, job: &StoredJob) -> bool {
     let own = etag(job);
     known

@@ -29,7 +29,7 @@ struct Asset {
     path: &'static str,
     media_type: &'static str,
     etag: &'static str,
-    /// Its bytes, compressed by Brotli.
+    /// Bytes, compressed by Brotli.
     compressed: &'static [u8],
 }
 
@@ -151,7 +151,7 @@ fn serve(
 }
 
 impl Asset {
-    /// Its bytes without compression.
+    /// Bytes without compression.
     fn bytes(&self) -> std::io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
         brotli::Decompressor::new(self.compressed, BUFFER).read_to_end(&mut bytes)?;

@@ -171,7 +171,7 @@ struct Read<T> {
     write: fn(&T) -> Result<Vec<u8>, CsvError>,
     /// Reduces its number of points.
     thin: fn(T, usize) -> T,
-    /// That of a section along a line at a cycle; the loop is that of the whole line.
+    /// Reads a section along a line at a cycle; the loop is that of the whole line.
     of_station: Option<fn(u64, LineProfile) -> T>,
 }
 

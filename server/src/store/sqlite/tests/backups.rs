@@ -58,7 +58,7 @@ async fn a_backup_is_consistent_although_jobs_are_deleted_and_restarted_meanwhil
     assert_eq!(copy.manifest(running).await.expect("the store"), []);
 }
 
-/// The worker of the job goes on, and its service is that of the copy from some time on.
+/// The worker of the job continues, and its service is that of the copy from some time on.
 #[tokio::test]
 async fn the_leases_of_a_restored_database_have_ended_for_the_workers_of_its_original() {
     let fixture = Fixture::new().await;

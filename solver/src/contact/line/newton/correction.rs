@@ -14,9 +14,9 @@ use crate::linear::DenseLu;
 /// Condition of an unknown of the border.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Condition {
-    /// Its equation holds.
+    /// Equation holds.
     Free,
-    /// Its change is known.
+    /// Change is known.
     Known { change: f64 },
     /// Besides a known change it changes by the change of the free unknown before it, times a factor.
     Follows { factor: f64, change: f64 },

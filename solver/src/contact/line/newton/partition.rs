@@ -28,7 +28,7 @@ enum Form {
 /// The unknowns of an increment.
 #[derive(Debug, Default)]
 pub(super) struct Partition {
-    /// Those of the core, then those of the border.
+    /// Unknowns of the core, then those of the border.
     pub(super) unknowns: Vec<Unknown>,
     /// Number of unknowns of the core.
     pub(super) core: usize,
@@ -62,7 +62,7 @@ impl Partition {
         }
     }
 
-    /// Whether the unknowns allow the statuses of an iterate.
+    /// Returns `true` if the unknowns allow the statuses of an iterate.
     pub(super) fn admits(&self, it: &Iterate) -> bool {
         let admits = |(form, status): (&Form, &Status)| match *form {
             Form::Outside => *status == Status::Open,

@@ -23,7 +23,7 @@ impl System {
         self.hierarchical.blocks(core, border)
     }
 
-    /// Whether a hierarchical system was written last.
+    /// Returns `true` if a hierarchical system was written last.
     pub(super) fn is_hierarchical(&self) -> bool {
         self.is_hierarchical
     }

@@ -18,7 +18,7 @@ use crate::sides::{Side, Sides};
 pub(in super::super) struct PowerOpening {
     /// Gaps of the coupled nodes, mm.
     pub(in super::super) opened: Vec<f64>,
-    /// Its derivatives by the pressures, mm/MPa, and by the magnitudes of the slips, -.
+    /// Derivatives by the pressures, mm/MPa, and by the magnitudes of the slips, -.
     pub(in super::super) per_pressure: Band,
     pub(in super::super) per_slip: Band,
     /// Recession of the nodes of both sides in the coupled range, mm.

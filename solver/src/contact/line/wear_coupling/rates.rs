@@ -19,7 +19,7 @@ pub(super) struct NodeRates {
 }
 
 impl NodeRates {
-    /// Those of a law at a local state.
+    /// Rates of a law at a local state.
     pub(super) fn of_law(law: WearLaw, at: LocalState) -> Self {
         let rate = law.rate(at);
         Self {
@@ -29,7 +29,7 @@ impl NodeRates {
         }
     }
 
-    /// Those of a law by dose from a depth in mm over a dose in MPa mm.
+    /// Rates of a law by dose from a depth in mm over a dose in MPa mm.
     pub(super) fn by_dose(curve: &DoseCurve, depth: f64, dose: f64) -> Self {
         let (worn, end) = curve.recession(depth, dose);
         Self {

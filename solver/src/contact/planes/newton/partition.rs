@@ -56,7 +56,7 @@ impl Partition {
         self.nodes.extend(of(Form::Border));
     }
 
-    /// Whether the unknowns allow statuses.
+    /// Returns `true` if the unknowns allow statuses.
     pub(super) fn admits(&self, is_closed: &[bool]) -> bool {
         let admits = |(form, closed): (&Form, &bool)| match *form {
             Form::Outside => !closed,

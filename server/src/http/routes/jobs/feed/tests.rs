@@ -1,4 +1,4 @@
-//! What a stream of all changes holds: with the service stopped it ends after what there is.
+//! Content of a stream of all changes: with the service stopped it ends after what there is.
 
 use crate::http::tests::Service;
 use serde_json::Value;
