@@ -1,9 +1,9 @@
-//! Workers: each claims a job, supervises one child process that solves it, and hands its results to its employer.
+//! Workers: each claims a job, supervises one child process that solves it, and hands its results to its job_source.
 
 mod attempt;
 mod computed;
 mod config;
-mod employer;
+mod job_source;
 mod end;
 mod health;
 mod manifest;
@@ -29,7 +29,7 @@ use supervisor::supervise;
 
 pub use attempt::finalize_lost_job;
 pub use config::{REMOTE_LEASE, WorkerConfig};
-pub use employer::{Employer, EmployerError, Remote, RemoteOptions};
+pub use job_source::{JobSource, JobSourceError, Remote, RemoteOptions};
 pub use health::WorkerHealth;
 pub use process::WorkerProcess;
 
@@ -39,20 +39,20 @@ const POLL_INTERVAL: Duration = Duration::from_secs(1);
 /// Claims and supervises jobs until it is asked to stop, or is given no more. A panic ends it; its job is then reclaimed when the lease ends.
 ///
 /// # Errors
-/// [`EmployerError`] if the employer does not accept this worker.
-pub async fn work<E: Employer>(
-    employer: Arc<E>,
+/// [`JobSourceError`] if the job source does not accept this worker.
+pub async fn work<E: JobSource>(
+    job_source: Arc<E>,
     (process, config): (Arc<WorkerProcess>, Arc<WorkerConfig>),
     stopping: CancellationToken,
-) -> Result<(), EmployerError> {
+) -> Result<(), JobSourceError> {
     while !stopping.is_cancelled() {
         // Summaries make it too large for the stack of a task.
-        match Box::pin(next(&*employer, (&process, &config), &stopping)).await {
+        match Box::pin(next(&*job_source, (&process, &config), &stopping)).await {
             Ok(true) => {}
-            Ok(false) if config.until_idle && is_idle(&*employer).await => return Ok(()),
+            Ok(false) if config.until_idle && is_idle(&*job_source).await => return Ok(()),
             Ok(false) => {
                 tokio::select! {
-                    () = employer.job_waiting() => {}
+                    () = job_source.job_waiting() => {}
                     () = tokio::time::sleep(POLL_INTERVAL) => {}
                     () = stopping.cancelled() => {}
                 }
@@ -73,34 +73,34 @@ pub async fn work<E: Employer>(
 }
 
 /// Claims of a worker; when it is dropped, what is left of them is abandoned.
-struct Unfinished<'a, E: Employer> {
-    employer: &'a E,
+struct Unfinished<'a, E: JobSource> {
+    job_source: &'a E,
     leases: Vec<Lease>,
 }
 
-impl<E: Employer> Drop for Unfinished<'_, E> {
+impl<E: JobSource> Drop for Unfinished<'_, E> {
     fn drop(&mut self) {
         for lease in &self.leases {
-            self.employer.abandon(*lease);
+            self.job_source.abandon(*lease);
         }
     }
 }
 
 /// Returns `true` if no job waits or runs anywhere; without an answer there may be one.
-async fn is_idle(employer: &impl Employer) -> bool {
-    employer.is_idle().await.unwrap_or_else(|error| {
+async fn is_idle(job_source: &impl JobSource) -> bool {
+    job_source.is_idle().await.unwrap_or_else(|error| {
         tracing::warn!(%error, "it is not known whether jobs wait");
         false
     })
 }
 
 /// Claims jobs and supervises them to their ends, one after the other; `false` if there was none to claim.
-async fn next<E: Employer>(
-    employer: &E,
+async fn next<E: JobSource>(
+    job_source: &E,
     (process, config): (&WorkerProcess, &WorkerConfig),
     stopping: &CancellationToken,
-) -> Result<bool, EmployerError> {
-    let claimed = process.claim(employer, config, stopping).await?;
+) -> Result<bool, JobSourceError> {
+    let claimed = process.claim(job_source, config, stopping).await?;
     let Some(Claimed {
         claims,
         memory,
@@ -111,19 +111,19 @@ async fn next<E: Employer>(
     };
     // Also after an error or a panic, without an end.
     let _unfinished = Unfinished {
-        employer,
+        job_source,
         leases: claims.iter().map(Lease::from).collect(),
     };
     for claim in &claims {
         let attempt = Attempt {
-            employer,
+            job_source,
             claim,
             config,
             threads: memory.threads,
             round,
         };
         let span = tracing::info_span!("job", id = %claim.id, lease = claim.lease, attempt = claim.attempt);
-        let _busy = employer.busy();
+        let _busy = job_source.busy();
         supervise(attempt, stopping).instrument(span).await?;
     }
     Ok(true)

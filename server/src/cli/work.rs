@@ -13,7 +13,7 @@ use crate::cli::signals::until_signal;
 use crate::cli::terminal::{Ended, failed};
 use crate::program;
 use crate::worker;
-use crate::worker::{EmployerError, Remote, RemoteOptions, WorkerProcess};
+use crate::worker::{JobSourceError, Remote, RemoteOptions, WorkerProcess};
 
 /// Rounds of declined attempts in a row after which the process ends, so that whoever has started it learns that it does not work: some two
 /// minutes.
@@ -67,11 +67,11 @@ pub(super) fn run(arguments: &WorkArguments) -> Ended {
 
 /// Waits for all workers, or for one that is not accepted; starts another for one that has panicked.
 async fn all<F>(
-    workers: &mut JoinSet<Result<(), EmployerError>>,
+    workers: &mut JoinSet<Result<(), JobSourceError>>,
     start: impl Fn() -> F,
-) -> Result<(), EmployerError>
+) -> Result<(), JobSourceError>
 where
-    F: Future<Output = Result<(), EmployerError>> + Send + 'static,
+    F: Future<Output = Result<(), JobSourceError>> + Send + 'static,
 {
     while let Some(ended) = workers.join_next().await {
         if let Ok(ended) = ended {

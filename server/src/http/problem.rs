@@ -11,7 +11,7 @@ pub(super) use crate::http::problem_type::ProblemType;
 use crate::objects::ObjectsError;
 use crate::spec::Refused;
 use crate::store::{ContentError, StoreError};
-use crate::worker::EmployerError;
+use crate::worker::JobSourceError;
 
 /// Media type of a problem document.
 const MEDIA_TYPE: &str = "application/problem+json";
@@ -104,11 +104,11 @@ impl<E: RouteError> From<E> for ProblemResponse {
     }
 }
 
-impl From<EmployerError> for ProblemResponse {
-    fn from(error: EmployerError) -> Self {
+impl From<JobSourceError> for ProblemResponse {
+    fn from(error: JobSourceError) -> Self {
         match error {
-            EmployerError::Store(error) => error.into(),
-            EmployerError::Remote(error) => Self::internal(&error),
+            JobSourceError::Store(error) => error.into(),
+            JobSourceError::Remote(error) => Self::internal(&error),
         }
     }
 }

@@ -19,7 +19,7 @@ const MEMORY_SHARE_PERCENT: u64 = 80;
 /// Memory in several threads over the estimate, which is that in one, per cent: 154 at most of ten scenes in 2 to 8 threads.
 const MEMORY_OF_THREADS_PERCENT: i64 = 160;
 
-/// Pauses before an operation of the employer is retried.
+/// Pauses before an operation of the job source is retried.
 pub(super) const RETRY: Backoff = Backoff {
     first: Duration::from_secs(1),
     longest: Duration::from_secs(10),

@@ -9,7 +9,7 @@ use uuid::Uuid;
 use crate::queue::{Capacity, MemoryBudget};
 use crate::store::{Claim, ClaimRequest, RequestNumber};
 use crate::worker::config::{RETRY, WorkerConfig};
-use crate::worker::employer::{Employer, EmployerError};
+use crate::worker::job_source::{JobSource, JobSourceError};
 use crate::worker::health::{Round, WorkerHealth};
 
 /// The workers of one process.
@@ -105,10 +105,10 @@ impl WorkerProcess {
     /// an answer, and while solving processes do not start, all workers of the process pause.
     pub(super) async fn claim(
         &self,
-        employer: &impl Employer,
+        job_source: &impl JobSource,
         config: &WorkerConfig,
         stopping: &CancellationToken,
-    ) -> Result<Option<Claimed<'_>>, EmployerError> {
+    ) -> Result<Option<Claimed<'_>>, JobSourceError> {
         let mut turn = tokio::select! {
             biased;
             () = stopping.cancelled() => return Ok(None),
@@ -118,9 +118,9 @@ impl WorkerProcess {
         let round = self.health.round();
         // Without an answer the same request is made again, by whichever worker is next.
         let answer = tokio::select! {
-            answer = employer.claim(&request) => answer,
+            answer = job_source.claim(&request) => answer,
             // It may wait for long. Repeated without a slot, it gets what it has claimed meanwhile, to be given back.
-            () = stopping.cancelled() => employer.claim(&without_slots(request)).await,
+            () = stopping.cancelled() => job_source.claim(&without_slots(request)).await,
         };
         turn.note(answer.is_ok());
         let claims = answer?;

@@ -10,7 +10,7 @@ use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::{ClaimedCheckpoint, End, LeaseState};
 use crate::worker::attempt::{Attempt, retry};
 use crate::worker::config::RETRY;
-use crate::worker::employer::{Employer, EmployerError};
+use crate::worker::job_source::{JobSource, JobSourceError};
 use crate::worker::end::{STOPPED, cancelled, deadline_passed};
 use crate::worker::update_buffer::UpdateBuffer;
 
@@ -27,12 +27,12 @@ pub(super) enum Start<'a> {
 /// How an attempt starts: from its checkpoint if it has one.
 ///
 /// # Errors
-/// [`EmployerError`] if the employer fails for good.
-pub(super) async fn start_of<'a, E: Employer>(
+/// [`JobSourceError`] if the job source fails for good.
+pub(super) async fn start_of<'a, E: JobSource>(
     attempt: Attempt<'a, E>,
     buffer: &mut UpdateBuffer,
     (deadline, stopping): (Option<Instant>, &CancellationToken),
-) -> Result<Start<'a>, EmployerError> {
+) -> Result<Start<'a>, JobSourceError> {
     if stopping.is_cancelled() {
         return Ok(stopped());
     }
@@ -48,16 +48,16 @@ pub(super) async fn start_of<'a, E: Employer>(
 }
 
 /// Asks for the checkpoint, and waits for a store of objects that does not answer. A run whose checkpoint is damaged starts at cycle 0.
-async fn stored<'a, E: Employer>(
+async fn stored<'a, E: JobSource>(
     attempt: Attempt<'a, E>,
     buffer: &mut UpdateBuffer,
     (deadline, stopping): (Option<Instant>, &CancellationToken),
-) -> Result<Start<'a>, EmployerError> {
-    let (employer, lease) = (attempt.employer, attempt.lease());
+) -> Result<Start<'a>, JobSourceError> {
+    let (job_source, lease) = (attempt.job_source, attempt.lease());
     let mut failures = 0;
     loop {
         let answer = tokio::select! {
-            answer = employer.checkpoint(lease) => answer,
+            answer = job_source.checkpoint(lease) => answer,
             () = stopping.cancelled() => return Ok(stopped()),
         };
         match answer {
@@ -71,7 +71,7 @@ async fn stored<'a, E: Employer>(
         if deadline.is_some_and(|at| Instant::now() >= at) {
             return Ok(Start::Never(Box::new(deadline_passed())));
         }
-        match employer.lease_state(lease).await {
+        match job_source.lease_state(lease).await {
             Ok(LeaseState::Held {
                 cancel_requested: true,
             }) => return Ok(Start::Never(Box::new(cancelled()))),
@@ -86,7 +86,7 @@ async fn stored<'a, E: Employer>(
     }
     tracing::warn!("its checkpoint is missing or damaged; the run starts at cycle 0");
     let number = buffer.restart("its checkpoint is missing or damaged".to_owned());
-    Ok(match retry(|| employer.restart(lease, number)).await? {
+    Ok(match retry(|| job_source.restart(lease, number)).await? {
         LeaseState::Held { .. } => Start::From(None),
         LeaseState::Lost => Start::LeaseLost,
     })

@@ -17,7 +17,7 @@ use crate::spec;
 use crate::store::{ClaimedCheckpoint, End, LeaseState};
 use crate::worker::attempt::{Attempt, retry};
 use crate::worker::config::RETRY;
-use crate::worker::employer::{Employer, EmployerError};
+use crate::worker::job_source::{JobSource, JobSourceError};
 use crate::worker::end::{
     STOPPED, cancelled, deadline_passed, declined, end_by_exit, failed, not_started,
 };
@@ -64,17 +64,17 @@ struct Supervision<'a, E> {
 
 /// Supervises an attempt under a lease that is renewed until the end. Whatever happens to the process, the attempt is
 /// ended or another worker holds the job.
-pub(super) async fn supervise<E: Employer>(
+pub(super) async fn supervise<E: JobSource>(
     attempt: Attempt<'_, E>,
     stopping: &CancellationToken,
-) -> Result<(), EmployerError> {
+) -> Result<(), JobSourceError> {
     attempt.with_heartbeat(run(attempt, stopping)).await
 }
 
-async fn run<E: Employer>(
+async fn run<E: JobSource>(
     attempt: Attempt<'_, E>,
     stopping: &CancellationToken,
-) -> Result<(), EmployerError> {
+) -> Result<(), JobSourceError> {
     let claim = attempt.claim;
     let deadline = claim.deadline_in_ms.map(|ms| {
         let length = Duration::from_millis(u64::try_from(ms).unwrap_or_default());
@@ -133,20 +133,20 @@ async fn run<E: Employer>(
     attempt.finalize(&updates, number, (&end, computed)).await
 }
 
-fn start<E: Employer>(
+fn start<E: JobSource>(
     attempt: Attempt<'_, E>,
     checkpoint: Option<&EncodedCheckpoint>,
 ) -> std::io::Result<SolveProcess> {
     let Attempt {
         claim,
         config,
-        employer,
+        job_source,
         threads,
         ..
     } = attempt;
     SolveCommand {
         program: &config.program,
-        folder: &employer.folder(claim.into()),
+        folder: &job_source.folder(claim.into()),
         spec: &claim.spec,
         checkpoint,
         checkpoint_every: config.checkpoint_every,
@@ -158,8 +158,8 @@ fn start<E: Employer>(
     .spawn()
 }
 
-impl<E: Employer> Supervision<'_, E> {
-    async fn read_output(&mut self) -> Result<Stop, EmployerError> {
+impl<E: JobSource> Supervision<'_, E> {
+    async fn read_output(&mut self) -> Result<Stop, JobSourceError> {
         let mut tick = tokio::time::interval(self.attempt.config.update_every);
         tick.set_missed_tick_behavior(MissedTickBehavior::Delay);
         let (mut last, mut failures) = (None, 0);
@@ -206,7 +206,7 @@ impl<E: Employer> Supervision<'_, E> {
                 Ok(LeaseState::Lost) => return Ok(Stop::LeaseLost),
                 // The solve continues and the update is written again; the fence discards writes that come too late.
                 Err(error) if error.is_temporary() => {
-                    tracing::warn!(%error, "the employer failed; retrying");
+                    tracing::warn!(%error, "the job source failed; retrying");
                     if self.is_cancelled_meanwhile(&error).await {
                         return Ok(Stop::Cancelled);
                     }
@@ -220,13 +220,13 @@ impl<E: Employer> Supervision<'_, E> {
 
     /// Returns `true` if the user cancelled the job while nothing could be stored because the disk is full, or no large file. The state of the lease
     /// can be read all the same; after another error the next write returns it.
-    async fn is_cancelled_meanwhile(&self, error: &EmployerError) -> bool {
+    async fn is_cancelled_meanwhile(&self, error: &JobSourceError) -> bool {
         let cancelled = LeaseState::Held {
             cancel_requested: true,
         };
-        let Attempt { employer, .. } = self.attempt;
+        let Attempt { job_source, .. } = self.attempt;
         (error.is_disk_full() || error.is_without_objects())
-            && employer.lease_state(self.attempt.lease()).await.ok() == Some(cancelled)
+            && job_source.lease_state(self.attempt.lease()).await.ok() == Some(cancelled)
     }
 
     /// Returns the meaning of a line error. A malformed line at the end of the output was truncated when the process
@@ -242,26 +242,26 @@ impl<E: Employer> Supervision<'_, E> {
     }
 
     /// Executes a write. An update without new lines only reads the state of the lease.
-    async fn execute(&mut self, write: Write) -> Result<LeaseState, EmployerError> {
+    async fn execute(&mut self, write: Write) -> Result<LeaseState, JobSourceError> {
         let Attempt {
-            employer, config, ..
+            job_source, config, ..
         } = self.attempt;
         let lease = self.attempt.lease();
         match write {
             Write::Restart(cause) => {
                 tracing::warn!(%cause, "the run restarts at cycle 0");
                 let number = self.buffer.restart(cause);
-                retry(|| employer.restart(lease, number)).await
+                retry(|| job_source.restart(lease, number)).await
             }
             Write::Update if self.buffer.is_dirty() => {
                 let update = self.buffer.take();
-                let answer = employer.record(lease, &update, config.lease).await;
+                let answer = job_source.record(lease, &update, config.lease).await;
                 if answer.is_err() {
                     self.buffer.put_back(update);
                 }
                 answer
             }
-            Write::Update => employer.lease_state(lease).await,
+            Write::Update => job_source.lease_state(lease).await,
         }
     }
 

@@ -1,6 +1,6 @@
 //! Workers with faulty solving processes.
 
-mod failing_employer;
+mod failing_job_source;
 mod failing_starts;
 
 use std::fs::Permissions;
@@ -20,7 +20,7 @@ use crate::http::tests::row;
 use crate::solve::Line;
 use crate::spec;
 use crate::store::{JobUpdate, Limits, NewJob, Store, SubmitOptions};
-use crate::worker::{EmployerError, WorkerConfig, WorkerHealth, WorkerProcess, work};
+use crate::worker::{JobSourceError, WorkerConfig, WorkerHealth, WorkerProcess, work};
 
 /// A worker whose solving process is a shell script, with one job and one attempt.
 struct Scripted {
@@ -28,7 +28,7 @@ struct Scripted {
     id: Uuid,
     stopping: CancellationToken,
     health: Arc<WorkerHealth>,
-    worker: JoinHandle<Result<(), EmployerError>>,
+    worker: JoinHandle<Result<(), JobSourceError>>,
     folder: TempDir,
 }
 

@@ -3,7 +3,7 @@
 use super::*;
 use crate::export::documents::VTU;
 use crate::export::files;
-use crate::worker::Employer;
+use crate::worker::JobSource;
 
 on_both_engines! { Fixture:
     a_write_after_a_gap_has_no_effect,
@@ -170,7 +170,7 @@ async fn a_job_does_not_succeed_with_missing_files(fixture: Fixture) {
         let last = numbered(&claim, JobUpdate::default());
         for answer in 0..2 {
             let succeed = end(Transition::Succeed);
-            let ended = Employer::finish(&**store, (&claim).into(), &last, &succeed).await;
+            let ended = JobSource::finish(&**store, (&claim).into(), &last, &succeed).await;
             let expected = match (answer, attempt) {
                 (1, _) => None,
                 (_, ATTEMPT_LIMIT) => Some(Status::Failed),
@@ -193,7 +193,7 @@ async fn a_job_does_not_succeed_with_missing_files(fixture: Fixture) {
     store.record_next(&claim, &update).await;
     let last = numbered(&claim, JobUpdate::default());
     let succeed = end(Transition::Succeed);
-    let ended = Employer::finish(&**store, (&claim).into(), &last, &succeed).await;
+    let ended = JobSource::finish(&**store, (&claim).into(), &last, &succeed).await;
     assert_eq!(ended.expect("the store"), Some(Status::Succeeded));
 }
 
@@ -206,7 +206,7 @@ async fn a_job_that_fails_marks_its_missing_files(fixture: Fixture) {
     }
     std::fs::remove_file(store.attempt_folder(&claim).join("b.vtu")).expect("removed");
     let last = numbered(&claim, JobUpdate::default());
-    let ended = Employer::finish(&**store, (&claim).into(), &last, &end(Transition::Fail)).await;
+    let ended = JobSource::finish(&**store, (&claim).into(), &last, &end(Transition::Fail)).await;
     assert_eq!(ended.expect("the store"), Some(Status::Failed));
     let manifest = store.manifest(id).await.expect("the store");
     let damaged = manifest.iter().filter(|file| file.damaged.is_some());

@@ -13,7 +13,7 @@ use crate::http::worker_access::WorkerToken;
 use crate::http::worker_body::WorkerBody;
 use crate::queue::Capacity;
 use crate::store::{Claim, ClaimRequest};
-use crate::worker::Employer;
+use crate::worker::JobSource;
 use crate::worker::protocol::{ClaimBody, LONGEST_WAIT, MAX_SLOTS, PROGRAM, lease_length};
 
 /// Interval at which a waiting request looks for a job, in case it missed a notification: none waits 5 s longer for that.
@@ -69,7 +69,7 @@ pub(crate) async fn claim(
         if is_draining {
             request.capacity.slots = 0;
         }
-        let claims = Employer::claim(&*app.store, &request).await?;
+        let claims = JobSource::claim(&*app.store, &request).await?;
         if is_draining && claims.is_empty() {
             return Err(Drained(worker).into());
         }

@@ -16,7 +16,7 @@ use crate::http::worker_access::WorkerToken;
 use crate::http::worker_body::WorkerBody;
 use crate::queue::Transition;
 use crate::store::{LeaseState, Store, UpdateFault, Write, WriteKind};
-use crate::worker::Employer;
+use crate::worker::JobSource;
 use crate::worker::protocol::{MOST_WRITES, WriteAnswer, lease_length};
 
 /// Longest time that the writes of several jobs wait for the slowest of them.
@@ -113,7 +113,7 @@ async fn one(store: &Store, write: Write) -> Result<WriteAnswer, ProblemResponse
         WriteKind::Renew(length) => {
             update.check().map_err(|cause| refused(&cause))?;
             let length = lease_length(length);
-            WriteAnswer::Lease(Employer::record(store, lease, &update, length).await?)
+            WriteAnswer::Lease(JobSource::record(store, lease, &update, length).await?)
         }
         WriteKind::End(end) => {
             if matches!(end.transition, Transition::Claim | Transition::Retry) {
@@ -121,7 +121,7 @@ async fn one(store: &Store, write: Write) -> Result<WriteAnswer, ProblemResponse
                 return Err(ProblemType::UNREADABLE_BODY.with_detail(detail));
             }
             update.check().map_err(|cause| refused(&cause))?;
-            WriteAnswer::Status(Employer::finish(store, lease, &update, &end).await?)
+            WriteAnswer::Status(JobSource::finish(store, lease, &update, &end).await?)
         }
     })
 }

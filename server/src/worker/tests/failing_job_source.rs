@@ -1,4 +1,4 @@
-//! Workers whose employer fails, or has no job.
+//! Workers whose job source fails, or has no job.
 
 use std::sync::Mutex;
 use std::time::Instant;
@@ -13,11 +13,11 @@ use crate::queue::Transition;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::tests::request;
 use crate::store::{Claim, ClaimRequest, End, Lease, LeaseState, StoreError};
-use crate::worker::Employer;
+use crate::worker::JobSource;
 use crate::worker::attempt::Attempt;
 use crate::worker::config::RETRY;
 
-/// An employer that gives two jobs and then fails for good, or none and waits.
+/// A job source that gives two jobs and then fails for good, or none and waits.
 #[derive(Debug, Default)]
 struct Failing {
     folder: PathBuf,
@@ -41,14 +41,14 @@ enum Writes {
     Succeed,
 }
 
-fn failed() -> EmployerError {
-    EmployerError::Store(StoreError::OnlySqlite)
+fn failed() -> JobSourceError {
+    JobSourceError::Store(StoreError::OnlySqlite)
 }
 
-impl Employer for Failing {
+impl JobSource for Failing {
     const WAITS_FOR_DISK: bool = true;
 
-    async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, EmployerError> {
+    async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, JobSourceError> {
         let asked = (request.request.number, request.capacity.slots);
         self.asked.lock().expect("no panic").push(asked);
         self.asked_at.lock().expect("no panic").push(Instant::now());
@@ -75,15 +75,15 @@ impl Employer for Failing {
 
     async fn job_waiting(&self) {}
 
-    async fn renew(&self, _lease: Lease, _length: Duration) -> Result<LeaseState, EmployerError> {
+    async fn renew(&self, _lease: Lease, _length: Duration) -> Result<LeaseState, JobSourceError> {
         Err(failed())
     }
 
-    async fn lease_state(&self, _lease: Lease) -> Result<LeaseState, EmployerError> {
+    async fn lease_state(&self, _lease: Lease) -> Result<LeaseState, JobSourceError> {
         Err(failed())
     }
 
-    async fn checkpoint(&self, _lease: Lease) -> Result<Option<EncodedCheckpoint>, EmployerError> {
+    async fn checkpoint(&self, _lease: Lease) -> Result<Option<EncodedCheckpoint>, JobSourceError> {
         Err(failed())
     }
 
@@ -92,7 +92,7 @@ impl Employer for Failing {
         _lease: Lease,
         _update: &JobUpdate,
         _length: Duration,
-    ) -> Result<LeaseState, EmployerError> {
+    ) -> Result<LeaseState, JobSourceError> {
         if self.writes == Writes::Succeed {
             return Ok(LeaseState::Held {
                 cancel_requested: false,
@@ -106,7 +106,7 @@ impl Employer for Failing {
         Err(failed())
     }
 
-    async fn restart(&self, _lease: Lease, _number: i64) -> Result<LeaseState, EmployerError> {
+    async fn restart(&self, _lease: Lease, _number: i64) -> Result<LeaseState, JobSourceError> {
         Err(failed())
     }
 
@@ -115,7 +115,7 @@ impl Employer for Failing {
         _lease: Lease,
         _update: &JobUpdate,
         end: &End,
-    ) -> Result<Option<Status>, EmployerError> {
+    ) -> Result<Option<Status>, JobSourceError> {
         if self.writes != Writes::Fail {
             let mut finished = self.finished.lock().expect("no panic");
             finished.push(end.transition);
@@ -136,7 +136,7 @@ impl Employer for Failing {
         None
     }
 
-    async fn demand(&self) -> Result<Demand, EmployerError> {
+    async fn demand(&self) -> Result<Demand, JobSourceError> {
         Err(failed())
     }
 }
@@ -144,15 +144,15 @@ impl Employer for Failing {
 /// What was computed up to the end is part of the results of a job that succeeds; of a cancelled one it may be lost.
 #[tokio::test]
 async fn a_job_whose_last_update_is_refused_does_not_succeed() {
-    let employer = Failing {
+    let job_source = Failing {
         writes: Writes::WithoutFiles,
         ..Failing::default()
     };
-    let claims = employer.claim(&request(i64::MAX, Duration::ZERO)).await;
+    let claims = job_source.claim(&request(i64::MAX, Duration::ZERO)).await;
     let claim = claims.expect("jobs").pop().expect("a job");
     let health = WorkerHealth::default();
     let attempt = Attempt {
-        employer: &employer,
+        job_source: &job_source,
         claim: &claim,
         config: &WorkerConfig::new(PathBuf::from("/nowhere")),
         threads: 1,
@@ -165,35 +165,35 @@ async fn a_job_whose_last_update_is_refused_does_not_succeed() {
             .await;
         assert_eq!(ended.is_ok(), transition == Transition::Cancel);
     }
-    let finished = employer.finished.lock().expect("no panic");
+    let finished = job_source.finished.lock().expect("no panic");
     assert_eq!(*finished, [Transition::Cancel]);
 }
 
 #[tokio::test]
 async fn claims_of_a_worker_that_fails_are_abandoned() {
-    let employer = Failing::default();
+    let job_source = Failing::default();
     let config = WorkerConfig::new(PathBuf::from("/nowhere"));
     let process = WorkerProcess::new(1_000, true);
     let stopping = CancellationToken::new();
-    let next = crate::worker::next(&employer, (&process, &config), &stopping);
-    Box::pin(next).await.expect_err("the employer fails");
-    let abandoned = employer.abandoned.lock().expect("no panic").clone();
+    let next = crate::worker::next(&job_source, (&process, &config), &stopping);
+    Box::pin(next).await.expect_err("the job source fails");
+    let abandoned = job_source.abandoned.lock().expect("no panic").clone();
     let jobs: Vec<u128> = abandoned.iter().map(|lease| lease.job.as_u128()).collect();
     assert_eq!(jobs, [1, 2]);
 }
 
 #[tokio::test]
 async fn short_jobs_that_were_claimed_together_go_back_together() {
-    let employer = Failing {
+    let job_source = Failing {
         writes: Writes::Succeed,
         ..Failing::default()
     };
     let config = WorkerConfig::new(PathBuf::from("/nowhere"));
     let process = WorkerProcess::new(1_000, true);
     let stopping = CancellationToken::new();
-    let next = crate::worker::next(&employer, (&process, &config), &stopping);
+    let next = crate::worker::next(&job_source, (&process, &config), &stopping);
     assert!(Box::pin(next).await.expect("an answer"));
-    let finished = employer.finished.lock().expect("no panic").clone();
+    let finished = job_source.finished.lock().expect("no panic").clone();
     assert_eq!(finished, [Transition::Decline; 2]);
     // A second declined round would end it.
     let mut second = Box::pin(process.health().declined_in_a_row(2));
@@ -202,27 +202,27 @@ async fn short_jobs_that_were_claimed_together_go_back_together() {
 
 /// Starts the workers of one process.
 fn eight_workers(
-    employer: &Arc<Failing>,
+    job_source: &Arc<Failing>,
     stopping: &CancellationToken,
-) -> Vec<JoinHandle<Result<(), EmployerError>>> {
+) -> Vec<JoinHandle<Result<(), JobSourceError>>> {
     let process = Arc::new(WorkerProcess::new(1_000, true));
     let config = Arc::new(WorkerConfig::new(PathBuf::from("/nowhere")));
     let start = |_| {
         let shared = (Arc::clone(&process), Arc::clone(&config));
-        tokio::spawn(work(Arc::clone(employer), shared, stopping.clone()))
+        tokio::spawn(work(Arc::clone(job_source), shared, stopping.clone()))
     };
     (0..8).map(start).collect()
 }
 
 #[tokio::test]
 async fn workers_of_a_process_pause_together_while_the_employer_is_away() {
-    let employer = Arc::new(Failing {
+    let job_source = Arc::new(Failing {
         is_away: true,
         ..Failing::default()
     });
     let stopping = CancellationToken::new();
-    let workers = eight_workers(&employer, &stopping);
-    while employer.asked.lock().expect("no panic").len() < 3 {
+    let workers = eight_workers(&job_source, &stopping);
+    while job_source.asked.lock().expect("no panic").len() < 3 {
         tokio::time::sleep(Duration::from_millis(10)).await;
     }
     stopping.cancel();
@@ -230,22 +230,22 @@ async fn workers_of_a_process_pause_together_while_the_employer_is_away() {
         worker.await.expect("no panic").expect("accepted");
     }
     // The same request, after half of the first and of the second pause at least.
-    let asked = employer.asked.lock().expect("no panic").clone();
+    let asked = job_source.asked.lock().expect("no panic").clone();
     assert!(asked.iter().all(|asked| *asked == (1, 1)), "{asked:?}");
-    let at = employer.asked_at.lock().expect("no panic").clone();
+    let at = job_source.asked_at.lock().expect("no panic").clone();
     assert!(at[1] - at[0] >= RETRY.first / 2, "{at:?}");
     assert!(at[2] - at[1] >= RETRY.first, "{at:?}");
 }
 
 #[tokio::test]
 async fn workers_that_wait_for_a_job_stop_and_ask_what_their_request_has_claimed() {
-    let employer = Arc::new(Failing {
+    let job_source = Arc::new(Failing {
         waits: true,
         ..Failing::default()
     });
     let stopping = CancellationToken::new();
-    let workers = eight_workers(&employer, &stopping);
-    while employer.asked.lock().expect("no panic").is_empty() {
+    let workers = eight_workers(&job_source, &stopping);
+    while job_source.asked.lock().expect("no panic").is_empty() {
         tokio::task::yield_now().await;
     }
     stopping.cancel();
@@ -256,6 +256,6 @@ async fn workers_that_wait_for_a_job_stop_and_ask_what_their_request_has_claimed
             .expect("no panic")
             .expect("accepted");
     }
-    let asked = employer.asked.lock().expect("no panic").clone();
+    let asked = job_source.asked.lock().expect("no panic").clone();
     assert_eq!(asked, [(1, 1), (1, 0)]);
 }

@@ -1,5 +1,5 @@
 //! Whom a worker works for: the store of its own process, or a remote service. Both give the same answers, which the tests in
-//! `worker/employer/tests.rs` compare.
+//! `worker/job_source/tests.rs` compare.
 
 mod remote;
 mod store;
@@ -18,9 +18,9 @@ use crate::store::{Claim, ClaimRequest, End, JobUpdate, Lease, LeaseState, Store
 
 pub use remote::{Remote, RemoteOptions};
 
-/// Why an employer gave no answer.
+/// Why a job source gave no answer.
 #[derive(Debug, thiserror::Error)]
-pub enum EmployerError {
+pub enum JobSourceError {
     /// The store failed.
     #[error(transparent)]
     Store(#[from] StoreError),
@@ -29,7 +29,7 @@ pub enum EmployerError {
     Remote(#[from] ClientError),
 }
 
-impl EmployerError {
+impl JobSourceError {
     /// Returns `true` if the same request may succeed later.
     pub(super) fn is_temporary(&self) -> bool {
         match self {
@@ -51,7 +51,7 @@ impl EmployerError {
         }
     }
 
-    /// Returns `true` if the employer does not accept this worker.
+    /// Returns `true` if the job source does not accept this worker.
     pub(super) fn is_rejected(&self) -> bool {
         match self {
             Self::Store(_) => false,
@@ -59,7 +59,7 @@ impl EmployerError {
         }
     }
 
-    /// Returns `true` if the employer gives this worker no more jobs.
+    /// Returns `true` if the job source gives this worker no more jobs.
     pub(super) fn is_drained(&self) -> bool {
         match self {
             Self::Store(_) => false,
@@ -85,7 +85,7 @@ impl EmployerError {
 }
 
 /// Whom a worker works for.
-pub trait Employer: Send + Sync + 'static {
+pub trait JobSource: Send + Sync + 'static {
     /// Attempts write to the disk of the database, which all jobs wait for while it is full. From another disk a job is given back.
     const WAITS_FOR_DISK: bool;
 
@@ -93,7 +93,7 @@ pub trait Employer: Send + Sync + 'static {
     fn claim(
         &self,
         request: &ClaimRequest,
-    ) -> impl Future<Output = Result<Vec<Claim>, EmployerError>> + Send;
+    ) -> impl Future<Output = Result<Vec<Claim>, JobSourceError>> + Send;
 
     /// Returns when a job may be waiting.
     fn job_waiting(&self) -> impl Future<Output = ()> + Send;
@@ -103,19 +103,19 @@ pub trait Employer: Send + Sync + 'static {
         &self,
         lease: Lease,
         length: Duration,
-    ) -> impl Future<Output = Result<LeaseState, EmployerError>> + Send;
+    ) -> impl Future<Output = Result<LeaseState, JobSourceError>> + Send;
 
     /// The state of a lease.
     fn lease_state(
         &self,
         lease: Lease,
-    ) -> impl Future<Output = Result<LeaseState, EmployerError>> + Send;
+    ) -> impl Future<Output = Result<LeaseState, JobSourceError>> + Send;
 
     /// The checkpoint of a job that does not come with its claim; `None` if it is missing or damaged, or if the lease was lost.
     fn checkpoint(
         &self,
         lease: Lease,
-    ) -> impl Future<Output = Result<Option<EncodedCheckpoint>, EmployerError>> + Send;
+    ) -> impl Future<Output = Result<Option<EncodedCheckpoint>, JobSourceError>> + Send;
 
     /// Records an update and renews the lease. The files that the update names are in the folder of the attempt, or were sent. A repeated one has
     /// no further effect.
@@ -124,14 +124,14 @@ pub trait Employer: Send + Sync + 'static {
         lease: Lease,
         update: &JobUpdate,
         length: Duration,
-    ) -> impl Future<Output = Result<LeaseState, EmployerError>> + Send;
+    ) -> impl Future<Output = Result<LeaseState, JobSourceError>> + Send;
 
     /// Deletes all results, because the run restarts at cycle 0; numbered as an update.
     fn restart(
         &self,
         lease: Lease,
         number: i64,
-    ) -> impl Future<Output = Result<LeaseState, EmployerError>> + Send;
+    ) -> impl Future<Output = Result<LeaseState, JobSourceError>> + Send;
 
     /// Ends the job, with documents of all its results, or returns it to the queue. Of the update, progress and number count, and files and block
     /// where it has one: the documents that the worker has made. Returns the new status, `None` if the lease was lost; a repeated end
@@ -141,7 +141,7 @@ pub trait Employer: Send + Sync + 'static {
         lease: Lease,
         update: &JobUpdate,
         end: &End,
-    ) -> impl Future<Output = Result<Option<Status>, EmployerError>> + Send;
+    ) -> impl Future<Output = Result<Option<Status>, JobSourceError>> + Send;
 
     /// Stops renewing a lease, and removes the files of its attempt, which has ended or is given up.
     fn abandon(&self, lease: Lease);
@@ -153,10 +153,10 @@ pub trait Employer: Send + Sync + 'static {
     fn busy(&self) -> Option<Busy>;
 
     /// The jobs that wait and run, of all workers.
-    fn demand(&self) -> impl Future<Output = Result<Demand, EmployerError>> + Send;
+    fn demand(&self) -> impl Future<Output = Result<Demand, JobSourceError>> + Send;
 
     /// Whether no job waits or runs anywhere.
-    fn is_idle(&self) -> impl Future<Output = Result<bool, EmployerError>> + Send {
+    fn is_idle(&self) -> impl Future<Output = Result<bool, JobSourceError>> + Send {
         async {
             let demand = self.demand().await?;
             Ok(demand.queued + demand.running == 0)

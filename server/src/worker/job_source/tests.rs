@@ -1,4 +1,4 @@
-//! One suite for every employer: the store itself, and a service over HTTP.
+//! One suite for every job_source: the store itself, and a service over HTTP.
 
 mod stored_checkpoint;
 
@@ -27,7 +27,7 @@ const LENGTH: Duration = Duration::from_secs(30);
 /// Longest wait of a test; not a measure of speed.
 const TEST_TIMEOUT: Duration = Duration::from_mins(1);
 
-/// Runs a suite with the store of a service as employer, and with the service over HTTP; also where files and checkpoints are objects.
+/// Runs a suite with the store of a service as job source, and with the service over HTTP; also where files and checkpoints are objects.
 macro_rules! with_both {
     ($($name:ident => $suite:ident;)+) => {
         mod the_store {
@@ -89,7 +89,7 @@ with_both! {
     nothing_waits_or_runs_at_the_end => idle;
 }
 
-/// The service as an employer over HTTP, until the guard is dropped.
+/// The service as a job source over HTTP, until the guard is dropped.
 async fn remote(service: &Service) -> (Remote, TempDir, impl Drop) {
     let listener = TcpListener::bind("127.0.0.1:0").await.expect("a port");
     let address = listener.local_addr().expect("an address");
@@ -119,8 +119,8 @@ async fn queued(service: &Service) -> Uuid {
     id.parse().expect("an id")
 }
 
-async fn claimed(employer: &impl Employer) -> Claim {
-    let claims = employer.claim(&request(i64::MAX, LENGTH)).await;
+async fn claimed(job_source: &impl JobSource) -> Claim {
+    let claims = job_source.claim(&request(i64::MAX, LENGTH)).await;
     claims.expect("an answer").pop().expect("a job")
 }
 
@@ -145,11 +145,11 @@ const HELD: LeaseState = LeaseState::Held {
     cancel_requested: false,
 };
 
-async fn repeated_claim(employer: &impl Employer, service: &Service) {
+async fn repeated_claim(job_source: &impl JobSource, service: &Service) {
     let (first, second) = (queued(service).await, queued(service).await);
     let asked = request(i64::MAX, LENGTH);
-    let once = employer.claim(&asked).await.expect("an answer");
-    let again = employer.claim(&asked).await.expect("an answer");
+    let once = job_source.claim(&asked).await.expect("an answer");
+    let again = job_source.claim(&asked).await.expect("an answer");
     let ids = |claims: &[Claim]| claims.iter().map(|c| (c.id, c.attempt)).collect::<Vec<_>>();
     assert_eq!(ids(&once), [(first, 1)]);
     assert_eq!(ids(&again), ids(&once));
@@ -161,18 +161,18 @@ async fn repeated_claim(employer: &impl Employer, service: &Service) {
         },
         ..asked
     };
-    let next = employer.claim(&next).await.expect("an answer");
+    let next = job_source.claim(&next).await.expect("an answer");
     assert_eq!(ids(&next), [(second, 1)]);
 }
 
-async fn repeated_update(employer: &impl Employer, service: &Service) {
+async fn repeated_update(job_source: &impl JobSource, service: &Service) {
     let (id, store) = (queued(service).await, &service.app.store);
-    let lease = Lease::from(&claimed(employer).await);
+    let lease = Lease::from(&claimed(job_source).await);
     for _ in 0..2 {
-        let recorded = employer.record(lease, &update(1, 4), LENGTH).await;
+        let recorded = job_source.record(lease, &update(1, 4), LENGTH).await;
         assert_eq!(recorded.expect("an answer"), HELD);
     }
-    let recorded = employer.record(lease, &update(2, 5), LENGTH).await;
+    let recorded = job_source.record(lease, &update(2, 5), LENGTH).await;
     assert_eq!(recorded.expect("an answer"), HELD);
     let events = store.events(id, 2).await.expect("the store");
     let data: Vec<_> = events.iter().map(|event| event.data.as_str()).collect();
@@ -182,7 +182,7 @@ async fn repeated_update(employer: &impl Employer, service: &Service) {
         number: 3,
         ..JobUpdate::default()
     };
-    let ended = employer
+    let ended = job_source
         .finish(lease, &release, &end(Transition::Release))
         .await;
     assert_eq!(ended.expect("an answer"), Some(Status::Queued));
@@ -190,15 +190,15 @@ async fn repeated_update(employer: &impl Employer, service: &Service) {
         cycle: 5,
         state: vec![0, 255, 7],
     });
-    assert_eq!(claimed(employer).await.checkpoint, Some(given));
+    assert_eq!(claimed(job_source).await.checkpoint, Some(given));
 }
 
-async fn finished(employer: &impl Employer, service: &Service) {
+async fn finished(job_source: &impl JobSource, service: &Service) {
     let (id, store) = (queued(service).await, &service.app.store);
-    let lease = Lease::from(&claimed(employer).await);
+    let lease = Lease::from(&claimed(job_source).await);
     let content = b"fields".to_vec();
     let file = files::manifest_entry("fields-5.vtu", Some(5), VTU, &content);
-    files::write_atomically(&employer.folder(lease), &file.name, &content).expect("written");
+    files::write_atomically(&job_source.folder(lease), &file.name, &content).expect("written");
     let with_file = JobUpdate {
         files: vec![NewFile {
             file: file.clone(),
@@ -206,14 +206,14 @@ async fn finished(employer: &impl Employer, service: &Service) {
         }],
         ..update(1, 5)
     };
-    let recorded = employer.record(lease, &with_file, LENGTH).await;
+    let recorded = job_source.record(lease, &with_file, LENGTH).await;
     assert_eq!(recorded.expect("an answer"), HELD);
     let last = JobUpdate {
         number: 2,
         ..JobUpdate::default()
     };
     for _ in 0..2 {
-        let ended = employer
+        let ended = job_source
             .finish(lease, &last, &end(Transition::Succeed))
             .await;
         assert_eq!(ended.expect("an answer"), Some(Status::Succeeded));
@@ -230,13 +230,13 @@ async fn finished(employer: &impl Employer, service: &Service) {
     crate::store::integrity::check_bytes(&entry, &bytes).expect("as it was sent");
 }
 
-async fn documented(employer: &impl Employer, service: &Service) {
+async fn documented(job_source: &impl JobSource, service: &Service) {
     let (id, store) = (queued(service).await, &service.app.store);
-    let lease = Lease::from(&claimed(employer).await);
-    let recorded = employer.record(lease, &update(1, 5), LENGTH).await;
+    let lease = Lease::from(&claimed(job_source).await);
+    let recorded = job_source.record(lease, &update(1, 5), LENGTH).await;
     assert_eq!(recorded.expect("an answer"), HELD);
     let large = files::manifest_entry("large.csv", None, CSV, b"many rows");
-    files::write_atomically(&employer.folder(lease), &large.name, b"many rows").expect("written");
+    files::write_atomically(&job_source.folder(lease), &large.name, b"many rows").expect("written");
     let small = files::manifest_entry("small.csv", None, CSV, b"a row");
     let mut block = Block::default();
     assert!(block.push_history(&[row(5)], &[]).expect("written"));
@@ -250,7 +250,7 @@ async fn documented(employer: &impl Employer, service: &Service) {
         block: Some(block.encode().expect("encoded")),
         ..JobUpdate::default()
     };
-    let ended = employer
+    let ended = job_source
         .finish(lease, &last, &end(Transition::Succeed))
         .await;
     assert_eq!(ended.expect("an answer"), Some(Status::Succeeded));
@@ -262,15 +262,15 @@ async fn documented(employer: &impl Employer, service: &Service) {
     assert_eq!(store.history(id).await.expect("the store"), [row(5)]);
 }
 
-async fn cancelled(employer: &impl Employer, service: &Service) {
+async fn cancelled(job_source: &impl JobSource, service: &Service) {
     let (id, store) = (queued(service).await, &service.app.store);
-    let lease = Lease::from(&claimed(employer).await);
+    let lease = Lease::from(&claimed(job_source).await);
     store.cancel(id).await.expect("the store");
     let learned = async {
         let asked = LeaseState::Held {
             cancel_requested: true,
         };
-        while employer.lease_state(lease).await.expect("an answer") != asked {
+        while job_source.lease_state(lease).await.expect("an answer") != asked {
             tokio::time::sleep(Duration::from_millis(20)).await;
         }
     };
@@ -279,20 +279,20 @@ async fn cancelled(employer: &impl Employer, service: &Service) {
         .expect("it learns of it");
 }
 
-async fn lost(employer: &impl Employer, service: &Service) {
+async fn lost(job_source: &impl JobSource, service: &Service) {
     let (id, store) = (queued(service).await, &service.app.store);
-    let lost = Lease::from(&claimed(employer).await);
+    let lost = Lease::from(&claimed(job_source).await);
     store.renew(lost, Duration::ZERO).await.expect("the store");
     store.reclaim_expired(LENGTH).await.expect("the store");
-    let fresh = Lease::from(&claimed(employer).await);
+    let fresh = Lease::from(&claimed(job_source).await);
     assert!(fresh.number > lost.number);
-    let recorded = employer.record(lost, &update(1, 5), LENGTH).await;
+    let recorded = job_source.record(lost, &update(1, 5), LENGTH).await;
     assert_eq!(recorded.expect("an answer"), LeaseState::Lost);
     assert_eq!(
-        employer.lease_state(lost).await.expect("an answer"),
+        job_source.lease_state(lost).await.expect("an answer"),
         LeaseState::Lost
     );
-    let ended = employer
+    let ended = job_source
         .finish(lost, &update(2, 6), &end(Transition::Succeed))
         .await;
     assert_eq!(ended.expect("an answer"), None);
@@ -301,15 +301,15 @@ async fn lost(employer: &impl Employer, service: &Service) {
     assert!(store.history(id).await.expect("the store").is_empty());
 }
 
-async fn restarted(employer: &impl Employer, service: &Service) {
+async fn restarted(job_source: &impl JobSource, service: &Service) {
     let (id, store) = (queued(service).await, &service.app.store);
-    let lease = Lease::from(&claimed(employer).await);
-    employer
+    let lease = Lease::from(&claimed(job_source).await);
+    job_source
         .record(lease, &update(1, 5), LENGTH)
         .await
         .expect("an answer");
     for _ in 0..2 {
-        let restarted = employer.restart(lease, 2).await;
+        let restarted = job_source.restart(lease, 2).await;
         assert_eq!(restarted.expect("an answer"), HELD);
     }
     assert!(store.history(id).await.expect("the store").is_empty());
@@ -317,17 +317,17 @@ async fn restarted(employer: &impl Employer, service: &Service) {
     assert_eq!(events.len(), 1, "{events:?}");
 }
 
-async fn idle(employer: &impl Employer, service: &Service) {
-    assert!(employer.is_idle().await.expect("an answer"));
+async fn idle(job_source: &impl JobSource, service: &Service) {
+    assert!(job_source.is_idle().await.expect("an answer"));
     queued(service).await;
-    assert!(!employer.is_idle().await.expect("an answer"));
-    let lease = Lease::from(&claimed(employer).await);
-    assert!(!employer.is_idle().await.expect("an answer"));
-    employer
+    assert!(!job_source.is_idle().await.expect("an answer"));
+    let lease = Lease::from(&claimed(job_source).await);
+    assert!(!job_source.is_idle().await.expect("an answer"));
+    job_source
         .finish(lease, &update(1, 5), &end(Transition::Fail))
         .await
         .expect("an answer");
-    assert!(employer.is_idle().await.expect("an answer"));
+    assert!(job_source.is_idle().await.expect("an answer"));
 }
 
 /// A claim that waits is answered as soon as there is a job.

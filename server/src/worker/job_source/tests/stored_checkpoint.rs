@@ -28,9 +28,9 @@ async fn a_service_is_asked_for_it() {
     is_asked_for(&remote, &service).await;
 }
 
-async fn is_asked_for(employer: &impl Employer, service: &Service) {
+async fn is_asked_for(job_source: &impl JobSource, service: &Service) {
     queued(service).await;
-    let lease = Lease::from(&claimed(employer).await);
+    let lease = Lease::from(&claimed(job_source).await);
     let checkpoint = EncodedCheckpoint {
         cycle: 5,
         state: (0..=255).cycle().take(1 << 17).collect(),
@@ -39,21 +39,21 @@ async fn is_asked_for(employer: &impl Employer, service: &Service) {
         checkpoint: Some(checkpoint.clone()),
         ..update(1, 5)
     };
-    let recorded = employer.record(lease, &large, LENGTH).await;
+    let recorded = job_source.record(lease, &large, LENGTH).await;
     assert_eq!(recorded.expect("an answer"), HELD);
     let release = JobUpdate {
         number: 2,
         ..JobUpdate::default()
     };
-    let ended = employer
+    let ended = job_source
         .finish(lease, &release, &end(Transition::Release))
         .await;
     assert_eq!(ended.expect("an answer"), Some(Status::Queued));
-    let claim = claimed(employer).await;
+    let claim = claimed(job_source).await;
     let stored = ClaimedCheckpoint::Stored { cycle: 5 };
     assert_eq!(claim.checkpoint, Some(stored));
-    let lost = employer.checkpoint(lease).await.expect("an answer");
+    let lost = job_source.checkpoint(lease).await.expect("an answer");
     assert_eq!(lost, None);
-    let found = employer.checkpoint(Lease::from(&claim)).await;
+    let found = job_source.checkpoint(Lease::from(&claim)).await;
     assert_eq!(found.expect("an answer"), Some(checkpoint));
 }

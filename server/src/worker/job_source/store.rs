@@ -1,4 +1,4 @@
-//! The store of this process as an employer.
+//! The store of this process as a job source.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use api::job::Status;
 use api::results::Summary;
 use api::service::Demand;
 
-use super::{Employer, EmployerError};
+use super::{JobSource, JobSourceError};
 use crate::metrics::Busy;
 use crate::queue::Transition;
 use crate::solve::checkpoint::EncodedCheckpoint;
@@ -18,10 +18,10 @@ use crate::store::{
 use crate::worker::computed::Computed;
 use crate::worker::manifest::{Documents, make_documents};
 
-impl Employer for Store {
+impl JobSource for Store {
     const WAITS_FOR_DISK: bool = true;
 
-    async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, EmployerError> {
+    async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, JobSourceError> {
         if self.disk().shortage().is_some() {
             return Ok(Vec::new());
         }
@@ -39,15 +39,15 @@ impl Employer for Store {
         Store::job_waiting(self).await;
     }
 
-    async fn renew(&self, lease: Lease, length: Duration) -> Result<LeaseState, EmployerError> {
+    async fn renew(&self, lease: Lease, length: Duration) -> Result<LeaseState, JobSourceError> {
         Ok(Store::renew(self, lease, length).await?)
     }
 
-    async fn lease_state(&self, lease: Lease) -> Result<LeaseState, EmployerError> {
+    async fn lease_state(&self, lease: Lease) -> Result<LeaseState, JobSourceError> {
         Ok(Store::lease_state(self, lease).await?)
     }
 
-    async fn checkpoint(&self, lease: Lease) -> Result<Option<EncodedCheckpoint>, EmployerError> {
+    async fn checkpoint(&self, lease: Lease) -> Result<Option<EncodedCheckpoint>, JobSourceError> {
         Ok(Store::checkpoint(self, lease).await?)
     }
 
@@ -56,14 +56,14 @@ impl Employer for Store {
         lease: Lease,
         update: &JobUpdate,
         length: Duration,
-    ) -> Result<LeaseState, EmployerError> {
+    ) -> Result<LeaseState, JobSourceError> {
         let recorded = Store::record(self, lease, update, length).await;
         Ok(recorded.inspect_err(|error| {
             self.disk().release_after(error);
         })?)
     }
 
-    async fn restart(&self, lease: Lease, number: i64) -> Result<LeaseState, EmployerError> {
+    async fn restart(&self, lease: Lease, number: i64) -> Result<LeaseState, JobSourceError> {
         Ok(Store::restart(self, lease, number).await?)
     }
 
@@ -72,7 +72,7 @@ impl Employer for Store {
         lease: Lease,
         update: &JobUpdate,
         end: &End,
-    ) -> Result<Option<Status>, EmployerError> {
+    ) -> Result<Option<Status>, JobSourceError> {
         Ok(finish(self, lease, update, end).await?)
     }
 
@@ -92,7 +92,7 @@ impl Employer for Store {
         Some(self.metrics().busy_worker())
     }
 
-    async fn demand(&self) -> Result<Demand, EmployerError> {
+    async fn demand(&self) -> Result<Demand, JobSourceError> {
         Ok(Store::demand(self).await?)
     }
 }

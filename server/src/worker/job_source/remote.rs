@@ -1,4 +1,4 @@
-//! A remote service as an employer, over HTTP.
+//! A remote service as a job source, over HTTP.
 
 mod heartbeat;
 mod options;
@@ -14,7 +14,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use tokio_util::task::AbortOnDropHandle;
 
-use super::{Employer, EmployerError};
+use super::{JobSource, JobSourceError};
 use crate::client::{Client, ClientError};
 use crate::groups::{Groups, Pending};
 use crate::metrics::Busy;
@@ -72,12 +72,12 @@ impl Remote {
         &self,
         path: &str,
         body: &impl Serialize,
-    ) -> Result<T, EmployerError> {
+    ) -> Result<T, JobSourceError> {
         Ok(self.options.client.post(path, body).await?)
     }
 
     /// Sends a write, together with others that are sent at the same time if it is quick.
-    async fn write(&self, write: Write) -> Result<WriteAnswer, EmployerError> {
+    async fn write(&self, write: Write) -> Result<WriteAnswer, JobSourceError> {
         let write = Arc::new(write);
         if is_quick(&write) {
             let send = |group| send_together(self.options.client.clone(), group);
@@ -99,7 +99,7 @@ impl Remote {
         &self,
         lease: Lease,
         update: &JobUpdate,
-    ) -> Result<JobUpdate, EmployerError> {
+    ) -> Result<JobUpdate, JobSourceError> {
         let (Lease { job, number }, mut update) = (lease, update.clone());
         for NewFile { file, content } in update.largest_files_first() {
             let path = format!("/v1/worker/files/{job}/{number}/{}", file.name);
@@ -117,10 +117,10 @@ impl Remote {
     }
 }
 
-impl Employer for Remote {
+impl JobSource for Remote {
     const WAITS_FOR_DISK: bool = false;
 
-    async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, EmployerError> {
+    async fn claim(&self, request: &ClaimRequest) -> Result<Vec<Claim>, JobSourceError> {
         let body = ClaimBody {
             program: PROGRAM.to_owned(),
             host: self.host.clone(),
@@ -141,18 +141,18 @@ impl Employer for Remote {
         std::future::pending::<()>().await;
     }
 
-    async fn renew(&self, lease: Lease, _length: Duration) -> Result<LeaseState, EmployerError> {
+    async fn renew(&self, lease: Lease, _length: Duration) -> Result<LeaseState, JobSourceError> {
         self.lease_state(lease).await
     }
 
     /// As of the last heartbeat of all jobs. A service that is not reached may have given the job to another worker, or may be back
     /// before the lease ends; the solve continues, and the fence decides.
-    async fn lease_state(&self, lease: Lease) -> Result<LeaseState, EmployerError> {
+    async fn lease_state(&self, lease: Lease) -> Result<LeaseState, JobSourceError> {
         let state = held(&self.leases).get(&lease).copied();
         Ok(state.unwrap_or(LeaseState::Lost))
     }
 
-    async fn checkpoint(&self, lease: Lease) -> Result<Option<EncodedCheckpoint>, EmployerError> {
+    async fn checkpoint(&self, lease: Lease) -> Result<Option<EncodedCheckpoint>, JobSourceError> {
         let Lease { job, number } = lease;
         let path = format!("/v1/worker/checkpoints/{job}/{number}");
         Ok(self.options.client.get_once(&path).await?)
@@ -163,9 +163,9 @@ impl Employer for Remote {
         lease: Lease,
         update: &JobUpdate,
         length: Duration,
-    ) -> Result<LeaseState, EmployerError> {
+    ) -> Result<LeaseState, JobSourceError> {
         let update = match self.put_files(lease, update).await {
-            Err(EmployerError::Remote(error)) if error.is_of_type("/problems/lease-lost") => {
+            Err(JobSourceError::Remote(error)) if error.is_of_type("/problems/lease-lost") => {
                 return Ok(self.answered(lease, LeaseState::Lost));
             }
             sent => sent?,
@@ -181,7 +181,7 @@ impl Employer for Remote {
         }
     }
 
-    async fn restart(&self, lease: Lease, number: i64) -> Result<LeaseState, EmployerError> {
+    async fn restart(&self, lease: Lease, number: i64) -> Result<LeaseState, JobSourceError> {
         let body = RestartBody { lease, number };
         let state = self.post("/v1/worker/restarts", &body).await?;
         Ok(self.answered(lease, state))
@@ -192,10 +192,10 @@ impl Employer for Remote {
         lease: Lease,
         update: &JobUpdate,
         end: &End,
-    ) -> Result<Option<Status>, EmployerError> {
+    ) -> Result<Option<Status>, JobSourceError> {
         let update = match self.put_files(lease, update).await {
             // An end whose answer was lost has ended the lease.
-            Err(EmployerError::Remote(error)) if error.is_of_type("/problems/lease-lost") => {
+            Err(JobSourceError::Remote(error)) if error.is_of_type("/problems/lease-lost") => {
                 update.clone()
             }
             sent => sent?,
@@ -229,7 +229,7 @@ impl Employer for Remote {
         None
     }
 
-    async fn demand(&self) -> Result<Demand, EmployerError> {
+    async fn demand(&self) -> Result<Demand, JobSourceError> {
         Ok(self.options.client.demand().await?)
     }
 }
@@ -268,7 +268,7 @@ async fn send_together(
 }
 
 /// The error of a write that was not done.
-fn unexpected(answer: WriteAnswer) -> EmployerError {
+fn unexpected(answer: WriteAnswer) -> JobSourceError {
     match answer {
         WriteAnswer::Problem(problem) => ClientError::of(problem).into(),
         other => ClientError::of(Problem {
