@@ -23,9 +23,9 @@ const CHANGE_CAPACITY: usize = 1024;
 /// Memory of the files that are written to the store of objects at the same time, MB. Arbitrary.
 pub(in crate::store) const FILE_WRITES_MB: usize = 256;
 
-/// What the processes that serve the same database are told.
+/// What the processes that serve the same database are notified of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::store) enum Told {
+pub(in crate::store) enum Notification {
     /// Jobs wait in the queue.
     Waiting,
     /// A job has changed.
@@ -44,7 +44,7 @@ pub(in crate::store) struct Local {
     pub(in crate::store) changes: broadcast::Sender<Uuid>,
     pub(in crate::store) waiting: Arc<Notify>,
     /// To the processes that serve the same database.
-    pub(in crate::store) others: Option<mpsc::UnboundedSender<Told>>,
+    pub(in crate::store) others: Option<mpsc::UnboundedSender<Notification>>,
     pub(in crate::store) folder: Folder,
     /// Where results of succeeded jobs are moved to, and checkpoints are written.
     pub(in crate::store) objects: Option<Objects>,
@@ -132,14 +132,14 @@ impl Local {
     pub(in crate::store) fn changed(&self, id: Uuid) {
         // Without a subscriber this is not an error.
         let _ = self.changes.send(id);
-        self.tell(Told::Changed(id));
+        self.notify(Notification::Changed(id));
     }
 
     /// Tells the processes that serve the same database.
-    fn tell(&self, told: Told) {
+    fn notify(&self, notification: Notification) {
         if let Some(others) = &self.others {
             // The task that tells them ends with the store.
-            let _ = others.send(told);
+            let _ = others.send(notification);
         }
     }
 
@@ -167,7 +167,7 @@ impl Local {
         match status {
             Some(Status::Queued) => {
                 self.waiting.notify_one();
-                self.tell(Told::Waiting);
+                self.notify(Notification::Waiting);
             }
             Some(status) if status.is_terminal() => self.metrics.ended(status),
             _ => {}
@@ -178,7 +178,7 @@ impl Local {
     pub(in crate::store) fn many_wait(&self) {
         self.waiting.notify_waiters();
         self.waiting.notify_one();
-        self.tell(Told::Waiting);
+        self.notify(Notification::Waiting);
     }
 
     /// Removes the files of a deleted job. Files that cannot be removed are logged and remain until the next start.

@@ -14,7 +14,7 @@ use uuid::Uuid;
 
 use crate::store::StoreError;
 use crate::store::changes::ANY_JOB;
-use crate::store::local::Told;
+use crate::store::local::Notification;
 
 const CHANNEL: &str = "fretwear_changes";
 /// Time in which changes come together.
@@ -27,11 +27,11 @@ const WAITING: &str = "waiting";
 const PAUSE: Duration = Duration::from_secs(1);
 
 /// Tells the changes of this process until the store is closed.
-pub(super) async fn tell(pool: PgPool, process: Uuid, mut told: UnboundedReceiver<Told>) {
-    while let Some(first) = told.recv().await {
+pub(super) async fn notify(pool: PgPool, process: Uuid, mut notification: UnboundedReceiver<Notification>) {
+    while let Some(first) = notification.recv().await {
         sleep(INTERVAL).await;
         let mut changes = BTreeSet::from([first]);
-        while let Ok(next) = told.try_recv() {
+        while let Ok(next) = notification.try_recv() {
             changes.insert(next);
         }
         let changes: Vec<_> = changes.into_iter().map(text).collect();
@@ -42,7 +42,7 @@ pub(super) async fn tell(pool: PgPool, process: Uuid, mut told: UnboundedReceive
                 .execute(&pool)
                 .await;
             if let Err(error) = notified {
-                tracing::debug!(%error, "other processes were not told of changes");
+                tracing::debug!(%error, "other processes were not notified of changes");
             }
         }
     }
@@ -103,9 +103,9 @@ fn missed(changes: &broadcast::Sender<Uuid>, waiting: &Notify) {
     waiting.notify_one();
 }
 
-fn text(told: Told) -> String {
-    match told {
-        Told::Waiting => WAITING.to_owned(),
-        Told::Changed(id) => id.to_string(),
+fn text(notification: Notification) -> String {
+    match notification {
+        Notification::Waiting => WAITING.to_owned(),
+        Notification::Changed(id) => id.to_string(),
     }
 }

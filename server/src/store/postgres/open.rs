@@ -19,7 +19,7 @@ use crate::store::local::Local;
 use crate::store::postgres::PostgresStore;
 use crate::store::postgres::durability;
 use crate::store::postgres::migrations::{migrator, newest_version};
-use crate::store::postgres::notifications::{hear, tell};
+use crate::store::postgres::notifications::{hear, notify};
 use crate::store::{BackupError, Lease, Limits, StoreError};
 
 /// Number of connections for claims and writes, among them one that tells changes.
@@ -82,12 +82,12 @@ impl PostgresStore {
             Clock::System | Clock::Database => Clock::Database,
         };
         let mut local = Local::prepare(files, Some(&machine), limits, clock);
-        let (others, told) = mpsc::unbounded_channel();
+        let (others, notification) = mpsc::unbounded_channel();
         local.others = Some(others);
         let process = Uuid::now_v7();
         let (changes, waiting) = (local.changes.clone(), local.waiting.clone());
         let tasks = [
-            tokio::spawn(tell(pool.clone(), process, told)),
+            tokio::spawn(notify(pool.clone(), process, notification)),
             tokio::spawn(hear(pool.clone(), process, changes, waiting)),
         ];
         let store = Self {
