@@ -99,9 +99,9 @@ pub fn run_from(
         Some(run) => error_control::resume(scene, run, &mut recorder),
         None => error_control::solve(scene, &mut recorder),
     };
-    if let Err(SolveError::Checkpoint(misfit)) = ended {
+    if let Err(SolveError::Checkpoint(mismatch)) = ended {
         recorder.watch = Stopwatch::start(Cost::default());
-        recorder.emit(Line::Restarted(misfit.to_string()));
+        recorder.emit(Line::Restarted(mismatch.to_string()));
         ended = error_control::solve(scene, &mut recorder);
     }
     let summary = ended?;

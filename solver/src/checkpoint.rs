@@ -2,7 +2,7 @@
 
 mod earlier;
 mod finite;
-mod misfit;
+mod mismatch;
 mod section;
 
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub use earlier::Earlier;
 pub(crate) use earlier::Finished;
 pub use finite::{ExtrudedRun, FiniteRun, LineRun, PointRun};
-pub use misfit::Misfit;
+pub use mismatch::CheckpointMismatch;
 pub use section::SectionRun;
 
 /// A run between two computed cycles. It survives serialisation bit for bit in any format that preserves `f64`.

@@ -1,6 +1,6 @@
 //! Errors of a solve: one variant a stage.
 
-use crate::checkpoint::Misfit;
+use crate::checkpoint::CheckpointMismatch;
 use crate::condensation::OperatorError;
 use crate::cycle::CycleError;
 use crate::extruded::ExtrudedError;
@@ -32,7 +32,7 @@ pub enum SolveError {
     Extruded(#[from] ExtrudedError),
     /// A checkpoint is not one of this scene.
     #[error("checkpoint: {0}")]
-    Checkpoint(#[from] Misfit),
+    Checkpoint(#[from] CheckpointMismatch),
 }
 
 impl SolveError {

@@ -168,7 +168,7 @@ impl<'scope, 'env> Runs<'scope, 'env> {
                     return Ok(ControlFlow::Break(done));
                 }
                 Ok(done) => Some(done.compared),
-                Err(SolveError::Checkpoint(misfit)) => return Err(misfit.into()),
+                Err(SolveError::Checkpoint(mismatch)) => return Err(mismatch.into()),
                 Err(_) => None,
             };
             self.earlier.runs.push(compared);
@@ -240,7 +240,7 @@ impl<'scope, 'env> Runs<'scope, 'env> {
                 }
                 return Ok(ControlFlow::Break(done));
             }
-            Err(SolveError::Checkpoint(misfit)) => return Err(misfit.into()),
+            Err(SolveError::Checkpoint(mismatch)) => return Err(mismatch.into()),
             Err(error) => {
                 let reason = format!("the finer run has no solution: {error}");
                 if self.observer.on(Event::Restart(&reason)).is_break() {

@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 
 use crate::SolveError;
 use crate::ale::{self, Spines};
-use crate::checkpoint::{Checkpoint, Earlier, Misfit, Resumable, SectionRun};
+use crate::checkpoint::{Checkpoint, Earlier, CheckpointMismatch, Resumable, SectionRun};
 use crate::condensation::{self, Condensed};
 use crate::cycle::{CycleRecord, Integrator};
 use crate::effects::{self, EffectsPlan};
@@ -107,7 +107,7 @@ fn proceed(
         (Checkpoint::Extruded(run), Dimension::Extruded(_)) => {
             return finite::proceed_extruded(scene, plan, *run, observer);
         }
-        _ => return Err(Misfit::Dimension.into()),
+        _ => return Err(CheckpointMismatch::Dimension.into()),
     };
     observer.on_phase(Phase::Mesh);
     let plan = plan.after(&run.crossings);

@@ -7,7 +7,7 @@ use crate::scenes::{fuzz_button, mccoll};
 use crate::verify_long_wipe::{RATE, wipe};
 use crate::verify_mission::vibrated_and_wiped;
 use solver::SolveError;
-use solver::checkpoint::{Checkpoint, Misfit};
+use solver::checkpoint::{Checkpoint, CheckpointMismatch};
 use solver::observer::{Event, Observer};
 use solver::record::{CycleReport, Outcome, Snapshot, Summary};
 use solver::run;
@@ -173,7 +173,7 @@ fn a_checkpoint_of_another_scene_is_refused_with_its_numbers() {
     assert!(
         matches!(
             refused,
-            Err(SolveError::Checkpoint(Misfit::Nodes {
+            Err(SolveError::Checkpoint(CheckpointMismatch::Nodes {
                 body: "receptacle",
                 ..
             }))
@@ -185,7 +185,7 @@ fn a_checkpoint_of_another_scene_is_refused_with_its_numbers() {
     assert!(
         matches!(
             refused,
-            Err(SolveError::Checkpoint(Misfit::Beyond { cycles: 2, .. }))
+            Err(SolveError::Checkpoint(CheckpointMismatch::Beyond { cycles: 2, .. }))
         ),
         "{refused:?}"
     );

@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::earlier::Earlier;
-use super::misfit::Misfit;
+use super::mismatch::CheckpointMismatch;
 use crate::ale;
 use crate::cycle::{CycleState, MissionState};
 use crate::effects::Crossing;
@@ -102,9 +102,9 @@ impl SectionRun {
     }
 
     /// Checks that it belongs to a run of this many cycles on this unworn model.
-    pub(crate) fn check(&self, unworn: &Model, cycles: u64) -> Result<(), Misfit> {
+    pub(crate) fn check(&self, unworn: &Model, cycles: u64) -> Result<(), CheckpointMismatch> {
         if self.state.cycle > cycles {
-            return Err(Misfit::Beyond {
+            return Err(CheckpointMismatch::Beyond {
                 cycle: self.state.cycle,
                 cycles,
             });
@@ -133,10 +133,10 @@ impl SectionRun {
     }
 }
 
-fn check_nodes(side: Side, found: usize, nodes: usize) -> Result<(), Misfit> {
+fn check_nodes(side: Side, found: usize, nodes: usize) -> Result<(), CheckpointMismatch> {
     if found == nodes {
         return Ok(());
     }
     let body = side.name();
-    Err(Misfit::Nodes { body, found, nodes })
+    Err(CheckpointMismatch::Nodes { body, found, nodes })
 }

@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 
 use super::resistance::{self, Consequence};
 use crate::SolveError;
-use crate::checkpoint::{Earlier, ExtrudedRun, FiniteRun, LineRun, Misfit, PointRun};
+use crate::checkpoint::{Earlier, ExtrudedRun, FiniteRun, LineRun, CheckpointMismatch, PointRun};
 use crate::effects::EffectsPlan;
 use crate::electrical::{ElectricalChange, ElectricalState};
 use crate::extruded::ExtrudedIntegrator;
@@ -121,7 +121,7 @@ fn proceed<C: Contact>(
 ) -> Result<Summary, SolveError> {
     let (cycle, cycles) = (C::cycle(&run.state), scene.cycles);
     if cycle > cycles {
-        return Err(Misfit::Beyond { cycle, cycles }.into());
+        return Err(CheckpointMismatch::Beyond { cycle, cycles }.into());
     }
     observer.on_phase(Phase::Cycles);
     let plan = plan.after(&run.crossings);

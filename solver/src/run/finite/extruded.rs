@@ -3,7 +3,7 @@
 use super::sections::{Sections, State};
 use crate::SolveError;
 use crate::along_line::{Ending, StationCycle, StationProfile};
-use crate::checkpoint::{ExtrudedRun, Misfit, Resumable};
+use crate::checkpoint::{ExtrudedRun, CheckpointMismatch, Resumable};
 use crate::contact::{ContactState, Work};
 use crate::cycle::FrictionLoop;
 use crate::effects::EffectsPlan;
@@ -29,7 +29,7 @@ impl Sections for ExtrudedIntegrator {
         let bodies = bodies_of(scene)?;
         let (found, stations) = (state.last().stations.len(), bodies.node_planes());
         if found != stations {
-            return Err(Misfit::Stations { found, stations }.into());
+            return Err(CheckpointMismatch::Stations { found, stations }.into());
         }
         Ok(Self::resume(&bodies, plan, state)?)
     }

@@ -3,7 +3,7 @@
 use super::sections::{Sections, State};
 use crate::SolveError;
 use crate::along_line::{Ending, StationCycle, StationProfile};
-use crate::checkpoint::{LineRun, Misfit, Resumable};
+use crate::checkpoint::{LineRun, CheckpointMismatch, Resumable};
 use crate::contact::{ContactState, Work};
 use crate::cycle::FrictionLoop;
 use crate::effects::EffectsPlan;
@@ -25,7 +25,7 @@ impl Sections for LineIntegrator {
         let line = line_of(scene)?;
         let (found, stations) = (state.last().stations.len(), line.stations);
         if found != stations {
-            return Err(Misfit::Stations { found, stations }.into());
+            return Err(CheckpointMismatch::Stations { found, stations }.into());
         }
         Ok(Self::resume(&line, plan, state)?)
     }

@@ -2,7 +2,7 @@
 
 /// Mismatch between a checkpoint and a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum Misfit {
+pub enum CheckpointMismatch {
     /// The scene has another mesh.
     #[error("it has {found} values for the {nodes} contact nodes of the {body}")]
     Nodes {
