@@ -7,7 +7,7 @@ mod section;
 
 use serde::{Deserialize, Serialize};
 
-pub use earlier::Earlier;
+pub use earlier::EarlierRuns;
 pub(crate) use earlier::Finished;
 pub use finite::{ExtrudedRun, FiniteRun, LineRun, PointRun};
 pub use mismatch::CheckpointMismatch;
@@ -80,7 +80,7 @@ impl Checkpoint {
     }
 
     /// The runs before it.
-    pub(crate) fn earlier(&self) -> &Earlier {
+    pub(crate) fn earlier(&self) -> &EarlierRuns {
         match self {
             Self::Section(run) => &run.earlier,
             Self::Point(run) => &run.earlier,
@@ -90,7 +90,7 @@ impl Checkpoint {
     }
 
     /// The same, to be changed.
-    pub(crate) fn earlier_mut(&mut self) -> &mut Earlier {
+    pub(crate) fn earlier_mut(&mut self) -> &mut EarlierRuns {
         match self {
             Self::Section(run) => &mut run.earlier,
             Self::Point(run) => &mut run.earlier,

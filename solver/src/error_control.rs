@@ -21,7 +21,7 @@ pub use balance::may_restart;
 pub use companions::companion_scenes;
 
 use crate::SolveError;
-use crate::checkpoint::{Checkpoint, Earlier, Finished};
+use crate::checkpoint::{Checkpoint, EarlierRuns, Finished};
 use crate::effects::{self, EffectsPlan};
 use crate::observer::{Event, Observer, Phase};
 use crate::record::{Compared, Errors, Outcome, Quantity, Summary};
@@ -112,7 +112,7 @@ struct Runs<'scope, 'env> {
     /// The checkpoint that the next run resumes from.
     from: Option<Checkpoint>,
     /// The run with the settings of the tolerance, its companions, and `None` for a finer run without a solution.
-    earlier: Earlier,
+    earlier: EarlierRuns,
     observer: &'env mut dyn Observer,
     /// Threads of the companions, if they have any.
     threads: Option<CompanionThreads<'scope, 'env>>,

@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::earlier::Earlier;
+use super::earlier::EarlierRuns;
 use crate::effects::Crossing;
 use crate::electrical::ElectricalState;
 use crate::extruded::ExtrudedState;
@@ -25,7 +25,7 @@ pub struct FiniteRun<S> {
     /// Resistance of the contact, and what the next one depends on.
     pub(crate) electrical: ElectricalState,
     /// What error control knows from the runs of this scene before this one.
-    pub(crate) earlier: Earlier,
+    pub(crate) earlier: EarlierRuns,
 }
 
 /// A run of a point contact.

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::earlier::Earlier;
+use super::earlier::EarlierRuns;
 use super::mismatch::CheckpointMismatch;
 use crate::ale;
 use crate::cycle::{CycleState, MissionState};
@@ -39,7 +39,7 @@ pub struct SectionRun {
     /// Resistance of the contact, and what the next one depends on.
     pub(crate) electrical: ElectricalState,
     /// What error control knows from the runs of this scene before this one.
-    pub(crate) earlier: Earlier,
+    pub(crate) earlier: EarlierRuns,
 }
 
 impl SectionRun {

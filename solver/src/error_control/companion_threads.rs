@@ -12,7 +12,7 @@ use std::thread::{Builder, Scope};
 
 use super::companions;
 use crate::SolveError;
-use crate::checkpoint::{Checkpoint, Earlier};
+use crate::checkpoint::{Checkpoint, EarlierRuns};
 use crate::effects::EffectsPlan;
 use crate::observer::{Event, Observer};
 use crate::record::Summary;
@@ -169,7 +169,7 @@ impl Common {
                 common: self,
                 sender,
             };
-            let solved = run::by_plan((&companion, plan), from, &Earlier::default(), &mut observer);
+            let solved = run::by_plan((&companion, plan), from, &EarlierRuns::default(), &mut observer);
             let ended = Progress::Ended(number, Box::new(solved));
             if sender.send(ended).is_err() {
                 return;

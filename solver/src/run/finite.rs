@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 
 use super::resistance::{self, Consequence};
 use crate::SolveError;
-use crate::checkpoint::{Earlier, ExtrudedRun, FiniteRun, LineRun, CheckpointMismatch, PointRun};
+use crate::checkpoint::{EarlierRuns, ExtrudedRun, FiniteRun, LineRun, CheckpointMismatch, PointRun};
 use crate::effects::EffectsPlan;
 use crate::electrical::{ElectricalChange, ElectricalState};
 use crate::extruded::ExtrudedIntegrator;
@@ -30,7 +30,7 @@ use contact::Contact;
 pub(super) fn begin(
     scene: &Scene,
     plan: &EffectsPlan,
-    earlier: Earlier,
+    earlier: EarlierRuns,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     match scene.dimension {
@@ -77,7 +77,7 @@ pub(super) fn proceed_extruded(
 fn begin_contact<C: Contact>(
     scene: &Scene,
     plan: &EffectsPlan,
-    earlier: Earlier,
+    earlier: EarlierRuns,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     observer.on_phase(Phase::Cycles);

@@ -6,7 +6,7 @@ use super::computed::{Computed, UNLIMITED};
 use super::resistance;
 use super::snapshot::snapshot;
 use crate::SolveError;
-use crate::checkpoint::{Earlier, SectionRun};
+use crate::checkpoint::{EarlierRuns, SectionRun};
 use crate::condensation::{self, Condensed};
 use crate::cycle::{CycleState, Integrator, MissionState};
 use crate::effects::EffectsPlan;
@@ -125,7 +125,7 @@ fn load(
         compared,
         life: Life::default(),
         electrical,
-        earlier: Earlier::default(),
+        earlier: EarlierRuns::default(),
     };
     Ok((run, flow))
 }

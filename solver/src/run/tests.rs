@@ -48,7 +48,7 @@ fn a_run_goes_back_and_switches_on_what_it_calls_for() {
     let done = begin(
         &scene,
         &plan_of_few_cycles(),
-        Earlier::default(),
+        EarlierRuns::default(),
         &mut recorder,
     );
     let done = done.expect("it can be solved");
@@ -85,7 +85,7 @@ fn a_resumed_run_continues_with_what_it_has_called_for() {
     let done = begin(
         &scene,
         &plan_of_few_cycles(),
-        Earlier::default(),
+        EarlierRuns::default(),
         &mut whole,
     );
     let done = done.expect("it can be solved");
