@@ -4,7 +4,7 @@ use super::decision::{Decision, Indicator, Verdict};
 use super::dimension::can_simulate;
 use super::indicators::Indicators;
 use super::plasticity::Yield;
-use super::reason::{Grounds, reason};
+use super::reason::{DecisionBasis, reason};
 use super::small_strain;
 use crate::scene::Effect;
 
@@ -36,9 +36,9 @@ pub(super) fn decide(
         let missing =
             missing_input(scene, effect).or_else(|| missing_heat(scene, indicators, effect));
         let grounds = match (nothing, missing) {
-            (Some(nothing), _) => Grounds::Nothing(nothing),
-            (None, Some(missing)) => Grounds::Missing(missing),
-            (None, None) => Grounds::Indicator(indicator(scene, indicators, effect)),
+            (Some(nothing), _) => DecisionBasis::Nothing(nothing),
+            (None, Some(missing)) => DecisionBasis::Missing(missing),
+            (None, None) => DecisionBasis::Indicator(indicator(scene, indicators, effect)),
         };
         let verdict = verdict(scene, effect, grounds, called_for.contains(&effect));
         decisions.push(Decision {
@@ -57,13 +57,13 @@ pub(super) fn decide(
     decisions
 }
 
-fn verdict(scene: &Scene, effect: Effect, grounds: Grounds, called_for: bool) -> Verdict {
+fn verdict(scene: &Scene, effect: Effect, grounds: DecisionBasis, called_for: bool) -> Verdict {
     let switch = scene.effects.of(effect);
     let indicator = match grounds {
-        Grounds::Nothing(_) => return Verdict::Skipped,
-        Grounds::Missing(_) if switch == Some(false) => return Verdict::ForcedOff,
-        Grounds::Missing(_) => return Verdict::InputMissing,
-        Grounds::Indicator(indicator) => indicator,
+        DecisionBasis::Nothing(_) => return Verdict::Skipped,
+        DecisionBasis::Missing(_) if switch == Some(false) => return Verdict::ForcedOff,
+        DecisionBasis::Missing(_) => return Verdict::InputMissing,
+        DecisionBasis::Indicator(indicator) => indicator,
     };
     // Sticking needs shear.
     let needed = effect == Effect::Friction && scene.effects.of(Effect::StickMemory) == Some(true);

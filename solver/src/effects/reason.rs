@@ -12,7 +12,7 @@ use crate::sides::{Side, Sides};
 
 /// What a decision was made by.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Grounds {
+pub(super) enum DecisionBasis {
     /// There is nothing to simulate.
     Nothing(&'static str),
     /// The specification lacks an input.
@@ -21,7 +21,7 @@ pub(super) enum Grounds {
     Indicator(Indicator),
 }
 
-impl Grounds {
+impl DecisionBasis {
     /// The indicator.
     pub(super) fn indicator(self) -> Option<Indicator> {
         match self {
@@ -36,11 +36,11 @@ pub(super) fn reason(
     scene: &Scene,
     indicators: &Indicators<'_>,
     effect: Effect,
-    (verdict, grounds, called_for): (Verdict, Grounds, bool),
+    (verdict, grounds, called_for): (Verdict, DecisionBasis, bool),
 ) -> String {
     let indicator = match grounds {
-        Grounds::Nothing(words) | Grounds::Missing(words) => return words.to_owned(),
-        Grounds::Indicator(indicator) => indicator,
+        DecisionBasis::Nothing(words) | DecisionBasis::Missing(words) => return words.to_owned(),
+        DecisionBasis::Indicator(indicator) => indicator,
     };
     if effect == Effect::Elasticity {
         let modulus = contact_modulus(scene.slider.elastic, scene.receptacle.elastic);
