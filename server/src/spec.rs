@@ -10,7 +10,7 @@ mod cause;
 mod changing_friction;
 pub(crate) mod coefficients;
 mod conductors;
-mod covering;
+mod plating_choice;
 mod criterion;
 mod diagnostics;
 mod effects;
@@ -166,8 +166,8 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
         return Err(diagnostics.into_faults());
     }
     let mut warnings = diagnostics.warnings().to_vec();
-    let preset = covering::preset_for_motion(spec, (system_definition(kind).preset)());
-    warnings.extend(covering::warnings(spec, &preset));
+    let preset = plating_choice::preset_for_motion(spec, (system_definition(kind).preset)());
+    warnings.extend(plating_choice::warnings(spec, &preset));
     warnings.extend(law_range::warnings(&filled, &scene));
     warnings.extend(resistance_range::warnings(spec, &scene));
     warnings.extend(model::warnings(&scene));

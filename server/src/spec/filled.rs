@@ -15,7 +15,7 @@ use crate::spec::load::LineLoad;
 use crate::spec::movement::Movement;
 use crate::spec::system::{self, Preset};
 use crate::spec::{
-    accuracy, changing_friction, covering, criterion, effects, environment, law, life, load,
+    accuracy, changing_friction, plating_choice, criterion, effects, environment, law, life, load,
     materials, mission, model, motion, output, plating, stop,
 };
 
@@ -38,21 +38,21 @@ pub(super) fn scene_of(spec: &Spec, kind: SystemKind) -> Option<Scene> {
 
 /// The specification with every default filled in, and its scene.
 pub(super) fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics) -> Filled {
-    let preset = covering::preset_for_motion(spec, (system::definition(kind).preset)());
+    let preset = plating_choice::preset_for_motion(spec, (system::definition(kind).preset)());
     let (system, shapes) = system::resolve(kind, &spec.system, diagnostics);
     let (materials, elastic) = materials::resolve(&spec.materials, &preset, diagnostics);
-    let coverings = covering::resolve(spec, &preset);
-    let plated = coverings.map(|covering| covering.is_plated());
+    let plating_choices = plating_choice::resolve(spec, &preset);
+    let plated = plating_choices.map(|plating_choice| plating_choice.is_plated());
     let surroundings_c = spec.environment.temperature_c.unwrap_or(REFERENCE_C);
     let (interface, laws) = law::resolve(
         &spec.interface,
         &spec.materials,
         &materials,
-        (&preset, coverings, surroundings_c),
+        (&preset, plating_choices, surroundings_c),
         diagnostics,
     );
     law::check_plated_sides(&laws, plated, diagnostics);
-    let (platings, layers) = plating::resolve(coverings, laws.friction.unworn(), diagnostics);
+    let (platings, layers) = plating::resolve(plating_choices, laws.friction.unworn(), diagnostics);
     let laws = changing_friction::with_layers(laws, (&platings, &layers), diagnostics);
     let (model, dimension) = model::resolve(spec.model.as_ref(), (&shapes, kind), diagnostics);
     let (load, line_load) = resolve_load(spec, (&preset, dimension), &shapes, diagnostics);

@@ -31,7 +31,7 @@ use api::spec::{
 use solver::scene;
 use solver::sides::{Side, Sides};
 
-use crate::spec::covering::Covering;
+use crate::spec::plating_choice::PlatingChoice;
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::materials::{by_side, name};
 use crate::spec::sourced::{Sourced, assumed, source};
@@ -57,11 +57,11 @@ pub(crate) fn resolve(
     given: &Interface,
     materials: &Materials,
     resolved: &Materials,
-    (preset, coverings, surroundings_c): (&Preset, Sides<Covering<'_>>, f64),
+    (preset, plating_choices, surroundings_c): (&Preset, Sides<PlatingChoice<'_>>, f64),
     diagnostics: &mut Diagnostics,
 ) -> (Interface, Laws) {
     let (materials, resolved) = (by_side(materials), by_side(resolved));
-    let (friction, friction_law) = friction(given, materials, (preset, coverings), diagnostics);
+    let (friction, friction_law) = friction(given, materials, (preset, plating_choices), diagnostics);
     let coefficient = friction_law.unworn();
     let wear = Sides::from_fn(|at| {
         let law = match at {
@@ -70,7 +70,7 @@ pub(crate) fn resolve(
         };
         let metal = Material::Named(preset.materials.of(at).value.to_owned());
         // The base of a preset that is plated is a metal as any other that is named.
-        let is_plated = !preset.plating.of(at).is_empty() && *coverings.of(at) != Covering::Bare;
+        let is_plated = !preset.plating.of(at).is_empty() && *plating_choices.of(at) != PlatingChoice::Bare;
         let is_metal_of_preset = |material: &&Material| name(material) == name(&metal);
         let other = materials.of(at).filter(|given| !is_metal_of_preset(given));
         let side = WearingSide {
@@ -81,12 +81,12 @@ pub(crate) fn resolve(
             surroundings_c,
         };
         let of_preset = *preset.wear.of(at);
-        let default = match coverings.of(at) {
+        let default = match plating_choices.of(at) {
             // The law of the material that is plated, where the library lists one.
-            Covering::Given(_) => {
+            PlatingChoice::Given(_) => {
                 base_below_plating(&side).map_or(assumed(of_preset.value), Sourced::optional)
             }
-            Covering::Preset(_) | Covering::Removed | Covering::Bare => of_preset,
+            PlatingChoice::Preset(_) | PlatingChoice::Removed | PlatingChoice::Bare => of_preset,
         };
         wear(&side, law, default, coefficient, diagnostics)
     });
@@ -113,10 +113,10 @@ pub(crate) fn resolve(
 fn friction(
     given: &Interface,
     materials: Sides<Option<&Material>>,
-    (preset, coverings): (&Preset, Sides<Covering<'_>>),
+    (preset, plating_choices): (&Preset, Sides<PlatingChoice<'_>>),
     diagnostics: &mut Diagnostics,
 ) -> (Friction, scene::Friction) {
-    let of_preset = preset_friction::coefficient(materials, preset, coverings);
+    let of_preset = preset_friction::coefficient(materials, preset, plating_choices);
     let Some(given) = &given.friction else {
         return coulomb::from_preset(of_preset, diagnostics);
     };

@@ -7,7 +7,7 @@ use solver::law::softening::REFERENCE_C;
 use solver::scene::{self, Layer, MOST_LAYERS};
 use solver::sides::Sides;
 
-use crate::spec::covering::{self, Covering};
+use crate::spec::plating_choice::{self, PlatingChoice};
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::law;
 use crate::spec::law::wearing_side::WearingSide;
@@ -21,24 +21,24 @@ pub(in crate::spec) const THICKNESS_MM: RangeInclusive<f64> = 1e-6..=1.0;
 
 /// The layers of both parts of a specification.
 pub(super) fn by_side(platings: &Platings) -> Sides<&[PlatingLayer]> {
-    covering::given(platings).map(Option::unwrap_or_default)
+    plating_choice::given(platings).map(Option::unwrap_or_default)
 }
 
 /// Resolves the platings of both parts beside a coefficient of friction.
 pub(super) fn resolve(
-    coverings: Sides<Covering<'_>>,
+    plating_choices: Sides<PlatingChoice<'_>>,
     friction: f64,
     diagnostics: &mut Diagnostics,
 ) -> (Platings, Sides<Vec<Layer>>) {
     let resolved = Sides::from_fn(|side| {
         let pointer = format!("/plating/{}", side.name());
-        match *coverings.of(side) {
-            Covering::Bare => (None, Vec::new()),
-            Covering::Removed => {
+        match *plating_choices.of(side) {
+            PlatingChoice::Bare => (None, Vec::new()),
+            PlatingChoice::Removed => {
                 diagnostics.provenance(&pointer, Provenance::Given);
                 (Some(Vec::new()), Vec::new())
             }
-            Covering::Given(layers) => {
+            PlatingChoice::Given(layers) => {
                 diagnostics.check_length(&pointer, layers.len(), MOST_LAYERS);
                 let layers = layers.iter().take(MOST_LAYERS).enumerate();
                 let resolved = layers.map(|(index, given)| {
@@ -46,7 +46,7 @@ pub(super) fn resolve(
                 });
                 side_of(resolved)
             }
-            Covering::Preset(layers) => {
+            PlatingChoice::Preset(layers) => {
                 let layers = layers.iter().enumerate();
                 let resolved = layers.map(|(index, preset)| {
                     let pointer = format!("{pointer}/{index}");

@@ -4,17 +4,17 @@
 use api::spec::{Material, PlatingLayer};
 use solver::sides::{Side, Sides};
 
-use crate::spec::covering::Covering;
+use crate::spec::plating_choice::PlatingChoice;
 use crate::spec::sourced::{Sourced, assumed};
 use crate::spec::system::{FrictionPreset, Preset};
 
-/// The coefficient of a preset for parts with these coverings and given materials.
+/// The coefficient of a preset for parts with these plating_choices and given materials.
 pub(super) fn coefficient(
     materials: Sides<Option<&Material>>,
     preset: &Preset,
-    coverings: Sides<Covering<'_>>,
+    plating_choices: Sides<PlatingChoice<'_>>,
 ) -> Sourced<f64> {
-    let is_bare = |side| !coverings.of(side).is_plated();
+    let is_bare = |side| !plating_choices.of(side).is_plated();
     let FrictionPreset {
         surfaces,
         coefficient,
@@ -24,7 +24,7 @@ pub(super) fn coefficient(
         preset.friction
     };
     let is_of_pair = |side: Side| {
-        let surface = surface(*coverings.of(side), *materials.of(side), side, preset);
+        let surface = surface(*plating_choices.of(side), *materials.of(side), side, preset);
         surface == Some(*surfaces.of(side))
     };
     if Side::BOTH.into_iter().all(is_of_pair) {
@@ -36,16 +36,16 @@ pub(super) fn coefficient(
 
 /// Name of the material at the surface of a part, if it has one.
 fn surface<'a>(
-    covering: Covering<'a>,
+    plating_choice: PlatingChoice<'a>,
     material: Option<&'a Material>,
     side: Side,
     preset: &Preset,
 ) -> Option<&'a str> {
-    match covering {
-        Covering::Given([PlatingLayer { material, .. }, ..]) => name(material.as_ref()?),
-        Covering::Given([]) => None,
-        Covering::Preset(layers) => Some(layers.first()?.material.value),
-        Covering::Removed | Covering::Bare => match material {
+    match plating_choice {
+        PlatingChoice::Given([PlatingLayer { material, .. }, ..]) => name(material.as_ref()?),
+        PlatingChoice::Given([]) => None,
+        PlatingChoice::Preset(layers) => Some(layers.first()?.material.value),
+        PlatingChoice::Removed | PlatingChoice::Bare => match material {
             Some(material) => name(material),
             None => Some(preset.materials.of(side).value),
         },

@@ -14,7 +14,7 @@ use crate::spec::system::{LayerPreset, Preset};
 
 /// What covers a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Covering<'a> {
+pub(super) enum PlatingChoice<'a> {
     /// Layers of the specification.
     Given(&'a [PlatingLayer]),
     /// Layers of the preset.
@@ -25,7 +25,7 @@ pub(super) enum Covering<'a> {
     Bare,
 }
 
-impl Covering<'_> {
+impl PlatingChoice<'_> {
     /// Returns `true` if there are layers.
     pub(super) fn is_plated(&self) -> bool {
         matches!(self, Self::Given(_) | Self::Preset(_))
@@ -41,14 +41,14 @@ pub(super) fn given(platings: &Platings) -> Sides<Option<&[PlatingLayer]>> {
 }
 
 /// What covers both parts.
-pub(super) fn resolve<'a>(spec: &'a Spec, preset: &Preset) -> Sides<Covering<'a>> {
+pub(super) fn resolve<'a>(spec: &'a Spec, preset: &Preset) -> Sides<PlatingChoice<'a>> {
     let given = given(&spec.plating);
     Sides::from_fn(|side| match (*given.of(side), *preset.plating.of(side)) {
-        (Some([]), _) => Covering::Removed,
-        (Some(layers), _) => Covering::Given(layers),
-        (None, []) => Covering::Bare,
-        (None, _) if is_unworn(spec, side) => Covering::Bare,
-        (None, layers) => Covering::Preset(layers),
+        (Some([]), _) => PlatingChoice::Removed,
+        (Some(layers), _) => PlatingChoice::Given(layers),
+        (None, []) => PlatingChoice::Bare,
+        (None, _) if is_unworn(spec, side) => PlatingChoice::Bare,
+        (None, layers) => PlatingChoice::Preset(layers),
     })
 }
 
@@ -82,12 +82,12 @@ pub(super) fn preset_for_motion(spec: &Spec, preset: Preset) -> Preset {
 /// left out with a part that does not wear.
 pub(super) fn warnings(spec: &Spec, preset: &Preset) -> Vec<Fault> {
     let materials = materials::by_side(&spec.materials);
-    let coverings = resolve(spec, preset);
+    let plating_choices = resolve(spec, preset);
     let warnings = Side::BOTH.into_iter().filter_map(|side| {
         let name = side.name();
         let wear = format!("/interface/wear/{name}");
-        match *coverings.of(side) {
-            Covering::Preset(_) => {
+        match *plating_choices.of(side) {
+            PlatingChoice::Preset(_) => {
                 let pointer = match (materials.of(side), wear_of(spec, side)) {
                     (Some(_), _) => format!("/materials/{name}"),
                     (None, Some(_)) => wear,
@@ -98,7 +98,7 @@ pub(super) fn warnings(spec: &Spec, preset: &Preset) -> Vec<Fault> {
                 );
                 Some(Fault::new(&pointer, detail))
             }
-            Covering::Bare if !preset.plating.of(side).is_empty() && is_unworn(spec, side) => {
+            PlatingChoice::Bare if !preset.plating.of(side).is_empty() && is_unworn(spec, side) => {
                 let detail = format!(
                     "null without a given plating: the {name} does not wear at all, and the plating of the preset is left out"
                 );
