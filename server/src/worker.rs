@@ -1,4 +1,4 @@
-//! Workers: each claims a job, supervises one child process that solves it, and hands its results to its job_source.
+//! Workers: each claims a job, supervises one child process that solves it, and hands its results to its job source.
 
 mod attempt;
 mod computed;

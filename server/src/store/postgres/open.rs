@@ -82,12 +82,12 @@ impl PostgresStore {
             Clock::System | Clock::Database => Clock::Database,
         };
         let mut local = Local::prepare(files, Some(&machine), limits, clock);
-        let (others, notification) = mpsc::unbounded_channel();
+        let (others, notifications) = mpsc::unbounded_channel();
         local.others = Some(others);
         let process = Uuid::now_v7();
         let (changes, waiting) = (local.changes.clone(), local.waiting.clone());
         let tasks = [
-            tokio::spawn(notify(pool.clone(), process, notification)),
+            tokio::spawn(notify(pool.clone(), process, notifications)),
             tokio::spawn(hear(pool.clone(), process, changes, waiting)),
         ];
         let store = Self {

@@ -1,4 +1,4 @@
-//! One suite for every job_source: the store itself, and a service over HTTP.
+//! One suite for every job source: the store itself, and a service over HTTP.
 
 mod stored_checkpoint;
 
