@@ -18,7 +18,7 @@ use solver::scene::Scene;
 
 use crate::number::real;
 use crate::solve;
-use crate::solve::{Failure, Line};
+use crate::solve::{Failure, ChildMessage};
 use crate::spec::{self, Refused, Resolved, coefficients, scatter};
 
 /// Cycles that a contact may be rated for.
@@ -182,7 +182,7 @@ fn solved(
     coefficients::scale(&mut spec, factor);
     let resolved = resolve(&spec)?;
     let solved = solve::run((&resolved).into(), &mut |line| {
-        if let Line::Cycle(report) = line {
+        if let ChildMessage::Cycle(report) = line {
             on_cycle(report.cycle);
         }
         ControlFlow::Continue(())

@@ -27,7 +27,7 @@ use checkpoint::{Checkpoint, CheckpointPolicy, EncodedCheckpoint};
 use cost::Stopwatch;
 pub use cost::{children_cpu_s, cpu_s, thread_cpu_s};
 pub(crate) use process::LINE_LIMIT;
-pub use protocol::{Failure, Line};
+pub use protocol::{Failure, ChildMessage};
 
 /// What is solved.
 #[derive(Debug, Clone, Copy)]
@@ -65,13 +65,13 @@ impl<'a> From<&'a Resolved> for Case<'a> {
 /// [`Failure`] with the engine's numbers.
 pub fn run(
     case: Case<'_>,
-    on: &mut dyn FnMut(Line) -> ControlFlow<()>,
+    on: &mut dyn FnMut(ChildMessage) -> ControlFlow<()>,
 ) -> Result<Summary, Failure> {
     run_from(case, None, &CheckpointPolicy::default(), on)
 }
 
 /// Solves a scene from a checkpoint, if there is one, and emits checkpoints. If the checkpoint does not fit the scene, or
-/// the estimated error exceeds the tolerance, the run emits [`Line::Restarted`] and starts at cycle 0.
+/// the estimated error exceeds the tolerance, the run emits [`ChildMessage::Restarted`] and starts at cycle 0.
 ///
 /// # Errors
 /// [`Failure`] with the engine's numbers.
@@ -86,7 +86,7 @@ pub fn run_from(
     }: Case<'_>,
     from: Option<Checkpoint>,
     policy: &CheckpointPolicy,
-    on: &mut dyn FnMut(Line) -> ControlFlow<()>,
+    on: &mut dyn FnMut(ChildMessage) -> ControlFlow<()>,
 ) -> Result<Summary, Failure> {
     let (cost, run) = from.map(|from| (from.cost, from.run)).unzip();
     let mut recorder = Recorder {
@@ -101,7 +101,7 @@ pub fn run_from(
     };
     if let Err(SolveError::Checkpoint(mismatch)) = ended {
         recorder.watch = Stopwatch::start(Cost::default());
-        recorder.emit(Line::Restarted(mismatch.to_string()));
+        recorder.emit(ChildMessage::Restarted(mismatch.to_string()));
         ended = error_control::solve(scene, &mut recorder);
     }
     let summary = ended?;
@@ -115,7 +115,7 @@ pub fn run_from(
 }
 
 struct Recorder<'a> {
-    on: &'a mut dyn FnMut(Line) -> ControlFlow<()>,
+    on: &'a mut dyn FnMut(ChildMessage) -> ControlFlow<()>,
     policy: &'a CheckpointPolicy,
     watch: Stopwatch,
     /// Set if `on` stopped the run at a line that is not an event of the engine; the next event stops it.
@@ -124,7 +124,7 @@ struct Recorder<'a> {
 
 impl Recorder<'_> {
     /// Emits a line that is not an event at which the engine can be stopped.
-    fn emit(&mut self, line: Line) {
+    fn emit(&mut self, line: ChildMessage) {
         self.is_stopped |= (self.on)(line).is_break();
     }
 
@@ -138,7 +138,7 @@ impl Recorder<'_> {
             run: run.checkpoint(),
         };
         let flow = match checkpoint.encode() {
-            Ok(state) => (self.on)(Line::Checkpoint(EncodedCheckpoint {
+            Ok(state) => (self.on)(ChildMessage::Checkpoint(EncodedCheckpoint {
                 cycle: run.cycle(),
                 state,
             })),
@@ -175,7 +175,7 @@ impl Recorder<'_> {
     ) -> ControlFlow<()> {
         let name = vtu::file_name(cycle, position);
         match bytes {
-            Ok(bytes) => (self.on)(Line::Fields(FieldsFile {
+            Ok(bytes) => (self.on)(ChildMessage::Fields(FieldsFile {
                 name,
                 cycle,
                 media_type: VTU,
@@ -192,7 +192,7 @@ impl Recorder<'_> {
     fn picture(&mut self, maps: &ContactMaps) -> ControlFlow<()> {
         let name = pictures::maps::file_name(maps.cycle);
         match pictures::colour_map(&pictures::maps::picture(maps)) {
-            Ok(drawing) => (self.on)(Line::Fields(FieldsFile {
+            Ok(drawing) => (self.on)(ChildMessage::Fields(FieldsFile {
                 name,
                 cycle: maps.cycle,
                 media_type: SVG,
@@ -212,7 +212,7 @@ impl Recorder<'_> {
         document: &impl Serialize,
     ) -> ControlFlow<()> {
         match serde_json::to_vec(document) {
-            Ok(bytes) => (self.on)(Line::Fields(FieldsFile {
+            Ok(bytes) => (self.on)(ChildMessage::Fields(FieldsFile {
                 name,
                 cycle,
                 media_type: JSON,
@@ -232,7 +232,7 @@ impl Observer for Recorder<'_> {
             return ControlFlow::Break(());
         }
         let line = match event {
-            Event::Cycle(report) => Line::Cycle(Box::new(report.clone())),
+            Event::Cycle(report) => ChildMessage::Cycle(Box::new(report.clone())),
             Event::Snapshot(snapshot) => {
                 self.fields(snapshot)?;
                 let cycle = snapshot.cycle;
@@ -246,10 +246,10 @@ impl Observer for Recorder<'_> {
                     let name = (line::file_name(cycle), cycle);
                     self.document(name, &line::document(snapshot))?;
                 }
-                Line::Snapshot(Box::new(history::snapshot(snapshot)))
+                ChildMessage::Snapshot(Box::new(history::snapshot(snapshot)))
             }
             Event::Checkpoint(run) => return self.checkpoint(run),
-            Event::Restart(reason) => Line::Restarted(reason.to_owned()),
+            Event::Restart(reason) => ChildMessage::Restarted(reason.to_owned()),
         };
         (self.on)(line)
     }
@@ -257,10 +257,10 @@ impl Observer for Recorder<'_> {
     fn on_phase(&mut self, phase: observer::Phase) {
         let phase = history::phase(phase);
         self.watch.enter(phase);
-        self.emit(Line::Phase(phase));
+        self.emit(ChildMessage::Phase(phase));
     }
 
     fn on_refined(&mut self, errors: &str) {
-        self.emit(Line::Refined(errors.to_owned()));
+        self.emit(ChildMessage::Refined(errors.to_owned()));
     }
 }

@@ -22,7 +22,7 @@ use crate::solve::process::NAME;
 use crate::solve::protocol::{
     COMMAND, EXIT_DISK_FULL, EXIT_FILE_NOT_WRITTEN, EXIT_ORPHANED, Input,
 };
-use crate::solve::{Failure, Line};
+use crate::solve::{Failure, ChildMessage};
 use crate::spec;
 
 /// Pause before a full disk is tried again.
@@ -39,12 +39,12 @@ pub(super) fn arguments() -> Option<ChildArguments> {
 pub(super) fn run(arguments: &ChildArguments) -> Ended {
     let stop = Arc::new(AtomicBool::new(false));
     prepare(arguments, &stop).map_err(failed)?;
-    report(&Line::Ready)?;
+    report(&ChildMessage::Ready)?;
     let input = Input::read(std::io::stdin().lock()).map_err(failed)?;
     let mut resolved = match spec::read(input.spec.as_bytes()) {
         Ok(resolved) => resolved,
         Err(error) => {
-            report(&Line::Failed(Failure {
+            report(&ChildMessage::Failed(Failure {
                 outcome: Outcome::NotConverged,
                 reason: error.to_string(),
             }))?;
@@ -56,25 +56,25 @@ pub(super) fn run(arguments: &ChildArguments) -> Ended {
     let from = match input.checkpoint() {
         Ok(from) => from,
         Err(cause) => {
-            report(&Line::Restarted(cause))?;
+            report(&ChildMessage::Restarted(cause))?;
             None
         }
     };
     let every = Duration::from_millis(arguments.checkpoint_every_ms);
     let policy = CheckpointPolicy::new(every, Arc::clone(&stop));
     let solved = solve::run_from((&resolved).into(), from, &policy, &mut |line| match line {
-        Line::Fields(fields) => store(arguments, &fields, &stop),
+        ChildMessage::Fields(fields) => store(arguments, &fields, &stop),
         line => write(&line),
     });
     report(&match solved {
-        Ok(summary) if summary.outcome == Outcome::Stopped => Line::Stopped,
-        Ok(summary) => Line::Summary(Box::new(summary)),
-        Err(failure) => Line::Failed(failure),
+        Ok(summary) if summary.outcome == Outcome::Stopped => ChildMessage::Stopped,
+        Ok(summary) => ChildMessage::Summary(Box::new(summary)),
+        Err(failure) => ChildMessage::Failed(failure),
     })
 }
 
 /// Writes a line outside of the run; without a supervisor that reads it, the process fails.
-fn report(line: &Line) -> Ended {
+fn report(line: &ChildMessage) -> Ended {
     match write(line) {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(ExitCode::FAILURE),
@@ -131,7 +131,7 @@ fn store(arguments: &ChildArguments, fields: &FieldsFile, stop: &AtomicBool) -> 
         }
         std::thread::sleep(DISK_PAUSE);
     }
-    write(&Line::File(files::manifest_entry(
+    write(&ChildMessage::File(files::manifest_entry(
         name,
         Some(*cycle),
         media_type,
@@ -140,7 +140,7 @@ fn store(arguments: &ChildArguments, fields: &FieldsFile, stop: &AtomicBool) -> 
 }
 
 /// Writes a line; a supervisor that does not read any more stops the run.
-fn write(line: &Line) -> ControlFlow<()> {
+fn write(line: &ChildMessage) -> ControlFlow<()> {
     let Ok(mut bytes) = serde_json::to_vec(line) else {
         return ControlFlow::Break(());
     };

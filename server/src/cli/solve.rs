@@ -21,7 +21,7 @@ use crate::export::documents::Results;
 use crate::export::files;
 use crate::export::files::FieldsFile;
 use crate::solve;
-use crate::solve::{Failure, Line};
+use crate::solve::{Failure, ChildMessage};
 use crate::spec::Resolved;
 
 /// An hour, s: in a terminal, a solve that is expected to take more processor time is confirmed first.
@@ -105,26 +105,26 @@ fn solve(resolved: &Resolved, recorded: &mut Recorded) -> Result<Summary, Failur
     solved
 }
 
-fn record(line: Line, recorded: &mut Recorded, bar: &ProgressBar) {
+fn record(line: ChildMessage, recorded: &mut Recorded, bar: &ProgressBar) {
     match line {
-        Line::Phase(phase) => bar.set_message(phase.as_str()),
-        Line::Cycle(row) => {
+        ChildMessage::Phase(phase) => bar.set_message(phase.as_str()),
+        ChildMessage::Cycle(row) => {
             bar.set_position(row.cycle);
             recorded.rows.push(*row);
         }
-        Line::Snapshot(snapshot) => recorded.snapshots.push(*snapshot),
-        Line::Fields(file) => recorded.fields.push(file),
-        Line::Restarted(cause) => {
+        ChildMessage::Snapshot(snapshot) => recorded.snapshots.push(*snapshot),
+        ChildMessage::Fields(file) => recorded.fields.push(file),
+        ChildMessage::Restarted(cause) => {
             bar.println(format!("the run restarts at cycle 0: {cause}"));
             *recorded = Recorded::default();
         }
-        Line::Ready
-        | Line::File(_)
-        | Line::Refined(_)
-        | Line::Checkpoint(_)
-        | Line::Summary(_)
-        | Line::Failed(_)
-        | Line::Stopped => {}
+        ChildMessage::Ready
+        | ChildMessage::File(_)
+        | ChildMessage::Refined(_)
+        | ChildMessage::Checkpoint(_)
+        | ChildMessage::Summary(_)
+        | ChildMessage::Failed(_)
+        | ChildMessage::Stopped => {}
     }
 }
 

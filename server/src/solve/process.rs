@@ -19,7 +19,7 @@ use tokio_util::task::AbortOnDropHandle;
 use tracing::Instrument;
 
 use crate::control_group::memory_kills;
-use crate::solve::Line;
+use crate::solve::ChildMessage;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::solve::protocol::{COMMAND, Input};
 
@@ -85,7 +85,7 @@ pub(crate) struct SolveProcess {
 #[derive(Debug)]
 pub(crate) struct ReceivedLine {
     /// The line.
-    pub(crate) line: Line,
+    pub(crate) line: ChildMessage,
     /// Length.
     pub(crate) bytes: usize,
 }
@@ -96,7 +96,7 @@ pub(crate) enum LineError {
     /// The pipe failed, or the line is longer than allowed.
     #[error("the solver's output cannot be read: {0}")]
     Read(std::io::Error),
-    /// The line is not a [`Line`].
+    /// The line is not a [`ChildMessage`].
     #[error("the solver wrote something that cannot be read: {0}")]
     Malformed(serde_json::Error),
 }

@@ -1,8 +1,8 @@
 //! The protocol between a solving process (`fretwear solve-child`) and its supervisor.
 //!
 //! Standard input: two lines of JSON, the resolved specification and the checkpoint to resume from (`null` for none).
-//! It stays open as long as the supervisor lives; the process ends when it closes. Standard output: one [`Line`] (JSON)
-//! a line, the first of them [`Line::Ready`]: a process that ends before it was not started, whatever its job is. Files are written into the attempt's folder, and the lines only name them. SIGTERM asks for a checkpoint
+//! It stays open as long as the supervisor lives; the process ends when it closes. Standard output: one [`ChildMessage`] (JSON)
+//! a line, the first of them [`ChildMessage::Ready`]: a process that ends before it was not started, whatever its job is. Files are written into the attempt's folder, and the lines only name them. SIGTERM asks for a checkpoint
 //! after the current cycle and the end of the process.
 
 use std::io::BufRead;
@@ -29,7 +29,7 @@ pub(crate) const EXIT_DISK_FULL: i32 = 5;
 /// One line of a solving process, in order; the last one is `Summary`, `Failed` or `Stopped`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "event", content = "data", rename_all = "snake_case")]
-pub enum Line {
+pub enum ChildMessage {
     /// The process has started, and reads its input.
     Ready,
     /// The next phase starts.
@@ -58,7 +58,7 @@ pub enum Line {
     Stopped,
 }
 
-impl Line {
+impl ChildMessage {
     /// Returns `true` if it is the last line of a run.
     pub(crate) fn is_last(&self) -> bool {
         matches!(self, Self::Summary(_) | Self::Failed(_) | Self::Stopped)

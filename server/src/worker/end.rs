@@ -5,23 +5,23 @@ use std::fmt;
 use api::job::Outcome;
 
 use crate::queue::Transition;
-use crate::solve::Line;
+use crate::solve::ChildMessage;
 use crate::solve::process::{Exit, ExitCause};
 use crate::solve::protocol::{EXIT_DISK_FULL, EXIT_FILE_NOT_WRITTEN};
 use crate::store::End;
 
 /// Returns the end of a job. A result, a failure and a crash are final; a job whose process was killed from outside is
 /// tried again; a job whose process was asked to stop returns to the queue.
-pub(super) fn end_by_exit(last: Option<Line>, exit: &Exit) -> End {
+pub(super) fn end_by_exit(last: Option<ChildMessage>, exit: &Exit) -> End {
     match (last, exit.cause) {
-        (Some(Line::Summary(summary)), _) => End {
+        (Some(ChildMessage::Summary(summary)), _) => End {
             transition: Transition::Succeed,
             reason: None,
             outcome: Some(summary.outcome),
             summary: Some(*summary),
         },
-        (Some(Line::Failed(failure)), _) => failed(failure.outcome, failure.reason),
-        (Some(Line::Stopped), _) => {
+        (Some(ChildMessage::Failed(failure)), _) => failed(failure.outcome, failure.reason),
+        (Some(ChildMessage::Stopped), _) => {
             End::without_result(Transition::Release, "its solving process was asked to stop")
         }
         (_, ExitCause::KilledForMemory) => {
@@ -126,7 +126,7 @@ mod tests {
                 Some(Outcome::NotConverged),
             ),
             (
-                Some(Line::Stopped),
+                Some(ChildMessage::Stopped),
                 ExitCause::Code(0),
                 Transition::Release,
                 None,

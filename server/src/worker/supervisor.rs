@@ -10,7 +10,7 @@ use tokio_util::sync::CancellationToken;
 
 use crate::estimate::foreseen::Foreseen;
 use crate::queue::Transition;
-use crate::solve::Line;
+use crate::solve::ChildMessage;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::solve::process::{LineError, ReceivedLine, SolveCommand, SolveProcess};
 use crate::spec;
@@ -30,7 +30,7 @@ const MALFORMED_TIMEOUT: Duration = Duration::from_secs(1);
 /// Why reading the output of the process has ended.
 enum Stop {
     /// The process closed its output; with its last line, if there was one.
-    Output(Option<Box<Line>>),
+    Output(Option<Box<ChildMessage>>),
     /// A line cannot be read.
     Unreadable(LineError),
     /// The user has requested the end of the job.
@@ -168,12 +168,12 @@ impl<E: JobSource> Supervision<'_, E> {
             let may_read = failures == 0 || !self.buffer.is_full();
             let write = tokio::select! {
                 received = self.process.next_line(), if may_read => match received {
-                    Ok(Some(ReceivedLine { line: Line::Ready, .. })) => {
+                    Ok(Some(ReceivedLine { line: ChildMessage::Ready, .. })) => {
                         self.is_ready = true;
                         self.attempt.round.started();
                         continue;
                     }
-                    Ok(Some(ReceivedLine { line: Line::Restarted(cause), .. })) => {
+                    Ok(Some(ReceivedLine { line: ChildMessage::Restarted(cause), .. })) => {
                         Write::Restart(cause)
                     }
                     Ok(Some(ReceivedLine { line, .. })) if line.is_last() => {
@@ -231,7 +231,7 @@ impl<E: JobSource> Supervision<'_, E> {
 
     /// Returns the meaning of a line error. A malformed line at the end of the output was truncated when the process
     /// was killed; followed by more output it is a failure of the solver.
-    async fn stop_by(&mut self, error: LineError, last: Option<Line>) -> Stop {
+    async fn stop_by(&mut self, error: LineError, last: Option<ChildMessage>) -> Stop {
         if matches!(error, LineError::Malformed(_)) {
             let next = tokio::time::timeout(MALFORMED_TIMEOUT, self.process.next_line()).await;
             if matches!(next, Ok(Ok(None))) {
@@ -295,7 +295,7 @@ impl<E: JobSource> Supervision<'_, E> {
     }
 
     /// Asks the process for a last checkpoint and its exit, and waits for the grace period. Returns its last line.
-    async fn stop_gracefully(&mut self) -> Option<Line> {
+    async fn stop_gracefully(&mut self) -> Option<ChildMessage> {
         self.process.terminate();
         let mut last = None;
         let read = async {
@@ -304,7 +304,7 @@ impl<E: JobSource> Supervision<'_, E> {
                     line if line.is_last() => last = Some(line),
                     // The results before would have to be deleted first; instead the next attempt restarts from the last
                     // checkpoint.
-                    Line::Restarted(_) => break,
+                    ChildMessage::Restarted(_) => break,
                     line => self.buffer.push(line, bytes),
                 }
             }

@@ -17,7 +17,7 @@ use tokio_util::sync::CancellationToken;
 use uuid::Uuid;
 
 use crate::http::tests::row;
-use crate::solve::Line;
+use crate::solve::ChildMessage;
 use crate::spec;
 use crate::store::{JobUpdate, Limits, NewJob, Store, SubmitOptions};
 use crate::worker::{JobSourceError, WorkerConfig, WorkerHealth, WorkerProcess, work};
@@ -178,7 +178,7 @@ async fn a_process_that_closes_its_output_and_does_not_exit_is_killed() {
 
 #[tokio::test]
 async fn a_job_whose_last_worker_is_lost_has_documents_of_its_results() {
-    let row = serde_json::to_string(&Line::Cycle(Box::new(row(1)))).expect("a line");
+    let row = serde_json::to_string(&ChildMessage::Cycle(Box::new(row(1)))).expect("a line");
     let script = format!("read spec; read checkpoint; echo '{row}'; sleep 0.1; kill -9 $$");
     let scripted = Scripted::new(&script).await;
     let job = scripted.ended().await;
@@ -195,8 +195,8 @@ async fn a_job_whose_last_worker_is_lost_has_documents_of_its_results() {
 
 #[tokio::test]
 async fn a_stop_before_a_restart_discards_the_rows_of_the_restarted_run() {
-    let restarted = serde_json::to_string(&Line::Restarted("it is of another version".to_owned()));
-    let row = serde_json::to_string(&Line::Cycle(Box::new(row(1)))).expect("a line");
+    let restarted = serde_json::to_string(&ChildMessage::Restarted("it is of another version".to_owned()));
+    let row = serde_json::to_string(&ChildMessage::Cycle(Box::new(row(1)))).expect("a line");
     // It reports the restart only when it is asked to end.
     let script = format!(
         "trap \"echo '{}'; echo '{row}'; exit 0\" TERM; read spec; read checkpoint; while :; do sleep 0.05; done",

@@ -11,7 +11,7 @@ use solver::record::CycleReport;
 
 use crate::estimate::foreseen::Foreseen;
 use crate::number::real;
-use crate::solve::Line;
+use crate::solve::ChildMessage;
 use crate::store::{EventName, JobUpdate, NewContent, NewFile};
 use crate::worker::computed::Computed;
 use crate::worker::remaining::RemainingTime;
@@ -100,22 +100,22 @@ impl UpdateBuffer {
     }
 
     /// Adds a line that is not the last one.
-    pub(super) fn push(&mut self, line: Line, bytes: usize) {
+    pub(super) fn push(&mut self, line: ChildMessage, bytes: usize) {
         self.bytes = self.bytes.saturating_add(bytes);
         self.progress.updated_at = Some(Timestamp::now().to_string());
         match line {
-            Line::Phase(phase) => {
+            ChildMessage::Phase(phase) => {
                 if phase == Phase::Companions {
                     self.remaining.companions(self.elapsed_s());
                 }
                 self.progress.phase = Some(phase);
                 self.progress.stage = Some(stage(self.progress.stage, phase));
             }
-            Line::Refined(errors) => {
+            ChildMessage::Refined(errors) => {
                 self.progress.stage = Some(Stage::Refined);
                 self.progress.reason = Some(errors);
             }
-            Line::Cycle(row) => {
+            ChildMessage::Cycle(row) => {
                 self.remaining.computed(row.cycle, self.elapsed_s());
                 self.progress.cycle = row.cycle;
                 self.progress.fraction = fraction(row.cycle, self.progress.cycles);
@@ -124,22 +124,22 @@ impl UpdateBuffer {
                 self.update.rows.push((*row).clone());
                 self.newest = Some(*row);
             }
-            Line::Snapshot(snapshot) => {
+            ChildMessage::Snapshot(snapshot) => {
                 let computed = self.computed.take();
                 self.computed = computed.and_then(|held| held.with_snapshot(&snapshot, bytes));
                 self.update.snapshots.push(*snapshot);
             }
-            Line::File(file) => self.update.files.push(NewFile {
+            ChildMessage::File(file) => self.update.files.push(NewFile {
                 file,
                 content: NewContent::Folder,
             }),
-            Line::Checkpoint(checkpoint) => self.update.checkpoint = Some(checkpoint),
-            Line::Ready
-            | Line::Fields(_)
-            | Line::Restarted(_)
-            | Line::Summary(_)
-            | Line::Failed(_)
-            | Line::Stopped => {}
+            ChildMessage::Checkpoint(checkpoint) => self.update.checkpoint = Some(checkpoint),
+            ChildMessage::Ready
+            | ChildMessage::Fields(_)
+            | ChildMessage::Restarted(_)
+            | ChildMessage::Summary(_)
+            | ChildMessage::Failed(_)
+            | ChildMessage::Stopped => {}
         }
     }
 

@@ -8,7 +8,7 @@ use api::spec::Spec;
 
 use crate::batch::accuracy::{Found, StudyError};
 use crate::solve::process::{LineError, SolveCommand};
-use crate::solve::{Line, children_cpu_s};
+use crate::solve::{ChildMessage, children_cpu_s};
 
 /// Time between two checkpoints: longer than any run, because a run of a study is never resumed.
 const NO_CHECKPOINTS: Duration = Duration::from_secs(1_000_000);
@@ -49,9 +49,9 @@ async fn run(program: &Path, spec: &str) -> Result<Result<Found, String>, LineEr
     let (mut profile, mut found) = (Profile::default(), None);
     while let Some(received) = process.next_line().await? {
         match received.line {
-            Line::Snapshot(snapshot) => profile = snapshot.profile,
-            Line::Summary(summary) => found = Some(Ok(Found::new(*summary, &profile))),
-            Line::Failed(failure) => found = Some(Err(failure.reason)),
+            ChildMessage::Snapshot(snapshot) => profile = snapshot.profile,
+            ChildMessage::Summary(summary) => found = Some(Ok(Found::new(*summary, &profile))),
+            ChildMessage::Failed(failure) => found = Some(Err(failure.reason)),
             _ => {}
         }
     }

@@ -69,7 +69,7 @@ async fn repaired(fault: &Fault) {
         "{}",
         fault.cause
     );
-    let failed = Line::Failed(Failure {
+    let failed = ChildMessage::Failed(Failure {
         outcome: Outcome::NotConverged,
         reason: "as the test asked for".to_owned(),
     });

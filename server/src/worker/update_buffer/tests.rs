@@ -6,8 +6,8 @@ use solver::sides::Sides;
 use super::*;
 use crate::solve::checkpoint::EncodedCheckpoint;
 
-fn row(cycle: u64) -> Line {
-    Line::Cycle(Box::new(CycleReport {
+fn row(cycle: u64) -> ChildMessage {
+    ChildMessage::Cycle(Box::new(CycleReport {
         cycle,
         jump: 1,
         jump_error: 0.0,
@@ -98,7 +98,7 @@ fn the_last_update_has_the_last_cycle() {
 #[test]
 fn the_newest_checkpoint_is_stored_with_the_rows_before_it() {
     let checkpoint = |cycle| {
-        Line::Checkpoint(EncodedCheckpoint {
+        ChildMessage::Checkpoint(EncodedCheckpoint {
             cycle,
             state: Vec::new(),
         })
@@ -127,11 +127,11 @@ fn the_phase_of_the_companions_is_announced() {
         eta_s, eta_most_s, ..
     } = buffer.take().progress;
     assert!(eta_s.is_some() && eta_most_s > eta_s);
-    buffer.push(Line::Phase(Phase::Companions), 10);
+    buffer.push(ChildMessage::Phase(Phase::Companions), 10);
     let update = buffer.take();
     assert!(update.progress.eta_most_s > Some(0.0));
     assert_eq!(update.events.len(), 1);
-    buffer.push(Line::Phase(Phase::Companions), 10);
+    buffer.push(ChildMessage::Phase(Phase::Companions), 10);
     assert!(buffer.take().events.is_empty());
 }
 
@@ -152,22 +152,22 @@ fn long_lines_fill_the_buffer_before_many_rows_do() {
 fn a_finer_run_is_a_stage_of_its_own_with_the_errors_of_the_first_one() {
     let mut buffer = UpdateBuffer::new(100, 0, Foreseen::default());
     let mut stages = Vec::new();
-    let mut push = |buffer: &mut UpdateBuffer, line: Line| {
+    let mut push = |buffer: &mut UpdateBuffer, line: ChildMessage| {
         buffer.push(line, 100);
         let progress = buffer.take().progress;
         stages.extend(progress.stage.filter(|stage| stages.last() != Some(stage)));
         progress
     };
     for phase in [Phase::Mesh, Phase::Condense, Phase::Cycles] {
-        assert_eq!(push(&mut buffer, Line::Phase(phase)).reason, None);
+        assert_eq!(push(&mut buffer, ChildMessage::Phase(phase)).reason, None);
     }
     push(&mut buffer, row(37));
-    push(&mut buffer, Line::Phase(Phase::Condense));
-    push(&mut buffer, Line::Phase(Phase::Companions));
+    push(&mut buffer, ChildMessage::Phase(Phase::Condense));
+    push(&mut buffer, ChildMessage::Phase(Phase::Companions));
     buffer.restart("the error is 8 %".to_owned());
     let errors = "the error is 8 %, 2 % are allowed";
-    push(&mut buffer, Line::Refined(errors.to_owned()));
-    push(&mut buffer, Line::Phase(Phase::Mesh));
+    push(&mut buffer, ChildMessage::Refined(errors.to_owned()));
+    push(&mut buffer, ChildMessage::Phase(Phase::Mesh));
     let refined = push(&mut buffer, row(1));
     assert_eq!(refined.reason.as_deref(), Some(errors));
     assert_eq!((refined.cycle, refined.fraction), (1, 0.01));
@@ -186,7 +186,7 @@ fn a_run_that_begins_again_says_why_and_announces_it_at_once() {
     buffer.push(row(50), 100);
     assert_eq!(buffer.take().events.len(), 2);
     buffer.restart("the finer run has no solution".to_owned());
-    buffer.push(Line::Phase(Phase::Mesh), 100);
+    buffer.push(ChildMessage::Phase(Phase::Mesh), 100);
     let update = buffer.take();
     let reason = update.progress.reason.as_deref();
     assert_eq!(reason, Some("the finer run has no solution"));
