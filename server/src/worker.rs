@@ -64,7 +64,7 @@ pub async fn work<E: JobSource>(
             Err(error) if error.is_rejected() => return Err(error),
             // A claim has been followed by a pause of all workers of the process.
             Err(error) => {
-                tracing::warn!(%error, "a worker had no answer");
+                tracing::warn!(%error, "claim failed; retrying");
                 tokio::time::sleep(RETRY.first).await;
             }
         }
@@ -89,7 +89,7 @@ impl<E: JobSource> Drop for Unfinished<'_, E> {
 /// Returns `true` if no job waits or runs anywhere; without an answer there may be one.
 async fn is_idle(job_source: &impl JobSource) -> bool {
     job_source.is_idle().await.unwrap_or_else(|error| {
-        tracing::warn!(%error, "it is not known whether jobs wait");
+        tracing::warn!(%error, "request for waiting jobs failed");
         false
     })
 }

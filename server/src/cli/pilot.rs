@@ -105,7 +105,7 @@ async fn pilot(arguments: &SlurmArguments, client: &Client, workers: &SlurmWorke
                 }
             }
             Err(error) if error.is_rejected() => return Err(failed(error)),
-            Err(error) => tracing::warn!(%error, "the demand is not known"),
+            Err(error) => tracing::warn!(%error, "request for the demand failed"),
         }
         tokio::time::sleep(every).await;
     }

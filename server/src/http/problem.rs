@@ -132,7 +132,7 @@ impl From<StoreError> for ProblemResponse {
                     "the store of objects has lost its mark: it is another one, or is not mounted",
                 ),
             StoreError::Objects(ObjectsError::Damaged { .. }) => {
-                tracing::error!(%error, "a file is not what it should be");
+                tracing::error!(%error, "stored file is corrupt");
                 return ProblemType::FILE_DIFFERS.with_detail(error.to_string());
             }
             StoreError::LostFile(_) | StoreError::NoFile { .. } => {

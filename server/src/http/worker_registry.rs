@@ -72,7 +72,7 @@ impl WorkerRegistry {
         self.note(store, NOTE_EVERY).await;
         match store.draining_workers().await {
             Ok(draining) => *held(&self.draining) = draining.into_iter().collect(),
-            Err(error) => tracing::warn!(%error, "it is not known which workers are drained"),
+            Err(error) => tracing::warn!(%error, "drained workers could not be read"),
         }
     }
 

@@ -64,7 +64,7 @@ async fn stored<'a, E: JobSource>(
             Ok(Some(checkpoint)) => return Ok(Start::From(Some(Cow::Owned(checkpoint)))),
             Ok(None) => break,
             Err(error) if error.is_temporary() => {
-                tracing::warn!(%error, "its checkpoint cannot be read; retrying");
+                tracing::warn!(%error, "the checkpoint could not be read; retrying");
             }
             Err(error) => return Err(error),
         }

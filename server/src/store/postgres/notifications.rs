@@ -57,7 +57,7 @@ pub(super) async fn hear(
 ) {
     loop {
         if let Err(error) = listen(&pool, process, &changes, &waiting).await {
-            tracing::warn!(%error, "changes of other processes are not heard");
+            tracing::warn!(%error, "lost the LISTEN connection; polling");
         }
         sleep(PAUSE).await;
     }
