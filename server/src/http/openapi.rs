@@ -7,7 +7,9 @@
 //! cargo run --release -- openapi > api/openapi.json
 //! ```
 
+mod examples;
 mod parameters;
+pub(in crate::http) mod problems;
 mod specification;
 
 use std::sync::OnceLock;
@@ -32,12 +34,13 @@ const BODY_PROBLEMS: [(&str, &str); 5] = [
 /// Problems of operations with a query.
 const QUERY_PROBLEMS: [(&str, &str); 1] = [("400", "A query parameter is not valid")];
 /// Problems of requests that do not reach their route.
-const COMMON_PROBLEMS: [(&str, &str); 3] = [
+const COMMON_PROBLEMS: [(&str, &str); 4] = [
     ("401", "The access token is missing or wrong"),
     (
         "403",
         "The request was sent for another host or from another origin",
     ),
+    ("500", "An error of the service or of its machine"),
     (
         "503",
         "The service cannot take the request at present; `Retry-After` says when to send it again",
@@ -70,6 +73,7 @@ fn complete(document: &mut Value) {
         "scheme": "bearer",
         "description": "Access token of the service; required if one is configured"
     });
+    document["components"]["examples"] = problems::examples().into();
     document["security"] = json!([{}, {"token": []}]);
     let schemas = &mut document["components"]["schemas"];
     specification::complete(schemas);
@@ -79,8 +83,10 @@ fn complete(document: &mut Value) {
     describe_channels::<SideReport>(&mut schemas["SideSeries"], true);
     let paths = document["paths"].as_object_mut().into_iter().flatten();
     for (path, methods) in paths {
-        for (_, operation) in methods.as_object_mut().into_iter().flatten() {
+        for (method, operation) in methods.as_object_mut().into_iter().flatten() {
             complete_operation(identified(path), operation);
+            problems::complete(path, method, operation);
+            examples::complete(path, operation);
         }
     }
 }
@@ -194,6 +200,22 @@ mod tests {
             committed == text(),
             "the interface has changed; if that is intended: cargo run --release -- openapi > api/openapi.json"
         );
+    }
+
+    #[test]
+    fn every_problem_of_every_operation_has_a_type() {
+        let paths = document()["paths"].as_object().expect("paths");
+        for (path, methods) in paths {
+            for (method, operation) in methods.as_object().expect("methods") {
+                let responses = operation["responses"].as_object();
+                for (status, response) in responses.into_iter().flatten() {
+                    let content = &response["content"]["application/problem+json"];
+                    let examples = content["examples"].as_object();
+                    let is_typed = examples.is_some_and(|examples| !examples.is_empty());
+                    assert!(content.is_null() || is_typed, "{method} {path} {status}");
+                }
+            }
+        }
     }
 
     #[test]

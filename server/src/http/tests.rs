@@ -93,6 +93,15 @@ impl Service {
             .expect("an answer");
         let (parts, body) = response.into_parts();
         let bytes = body.collect().await.expect("a body").to_bytes();
+        if let Ok(problem) = serde_json::from_slice::<Value>(&bytes)
+            && problem["type"]
+                .as_str()
+                .is_some_and(|kind| kind.starts_with("/problems/"))
+        {
+            let listed =
+                openapi::problems::is_listed(openapi::document(), (method, path), &problem);
+            assert_ne!(listed, Some(false), "{method} {path}: {problem}");
+        }
         (parts.status, parts.headers, bytes.to_vec())
     }
 
