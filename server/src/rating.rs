@@ -18,7 +18,7 @@ use solver::scene::Scene;
 
 use crate::number::real;
 use crate::solve;
-use crate::solve::{Failure, ChildMessage};
+use crate::solve::{ChildMessage, Failure};
 use crate::spec::{self, Refused, Resolved, coefficients, scatter};
 
 /// Cycles that a contact may be rated for.

@@ -27,7 +27,7 @@ use checkpoint::{Checkpoint, CheckpointPolicy, EncodedCheckpoint};
 use cost::Stopwatch;
 pub use cost::{children_cpu_s, cpu_s, thread_cpu_s};
 pub(crate) use process::LINE_LIMIT;
-pub use protocol::{Failure, ChildMessage};
+pub use protocol::{ChildMessage, Failure};
 
 /// What is solved.
 #[derive(Debug, Clone, Copy)]

@@ -3,9 +3,9 @@
 mod attempt;
 mod computed;
 mod config;
-mod job_source;
 mod end;
 mod health;
+mod job_source;
 mod manifest;
 mod process;
 pub mod protocol;
@@ -29,8 +29,8 @@ use supervisor::supervise;
 
 pub use attempt::finalize_lost_job;
 pub use config::{REMOTE_LEASE, WorkerConfig};
-pub use job_source::{JobSource, JobSourceError, Remote, RemoteOptions};
 pub use health::WorkerHealth;
+pub use job_source::{JobSource, JobSourceError, Remote, RemoteOptions};
 pub use process::WorkerProcess;
 
 /// Interval at which an idle worker polls the queue, in case it missed a notification.

@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 
 use crate::SolveError;
 use crate::ale::{self, Spines};
-use crate::checkpoint::{Checkpoint, EarlierRuns, CheckpointMismatch, Resumable, SectionRun};
+use crate::checkpoint::{Checkpoint, CheckpointMismatch, EarlierRuns, Resumable, SectionRun};
 use crate::condensation::{self, Condensed};
 use crate::cycle::{CycleRecord, Integrator};
 use crate::effects::{self, EffectsPlan};
@@ -35,7 +35,12 @@ use summary::summary;
 /// # Errors
 /// [`SolveError`]; events delivered before it stay valid.
 pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Summary, SolveError> {
-    begin(scene, &effects::plan(scene), EarlierRuns::default(), observer)
+    begin(
+        scene,
+        &effects::plan(scene),
+        EarlierRuns::default(),
+        observer,
+    )
 }
 
 /// Solves a scene by a plan: from a checkpoint if there is one, else after earlier runs of it.

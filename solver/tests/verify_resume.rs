@@ -185,7 +185,10 @@ fn a_checkpoint_of_another_scene_is_refused_with_its_numbers() {
     assert!(
         matches!(
             refused,
-            Err(SolveError::Checkpoint(CheckpointMismatch::Beyond { cycles: 2, .. }))
+            Err(SolveError::Checkpoint(CheckpointMismatch::Beyond {
+                cycles: 2,
+                ..
+            }))
         ),
         "{refused:?}"
     );

@@ -22,7 +22,7 @@ use crate::solve::process::NAME;
 use crate::solve::protocol::{
     COMMAND, EXIT_DISK_FULL, EXIT_FILE_NOT_WRITTEN, EXIT_ORPHANED, Input,
 };
-use crate::solve::{Failure, ChildMessage};
+use crate::solve::{ChildMessage, Failure};
 use crate::spec;
 
 /// Pause before a full disk is tried again.

@@ -21,7 +21,7 @@ use crate::export::documents::Results;
 use crate::export::files;
 use crate::export::files::FieldsFile;
 use crate::solve;
-use crate::solve::{Failure, ChildMessage};
+use crate::solve::{ChildMessage, Failure};
 use crate::spec::Resolved;
 
 /// An hour, s: in a terminal, a solve that is expected to take more processor time is confirmed first.

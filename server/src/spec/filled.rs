@@ -15,8 +15,8 @@ use crate::spec::load::LineLoad;
 use crate::spec::movement::Movement;
 use crate::spec::system::{self, Preset};
 use crate::spec::{
-    accuracy, changing_friction, plating_choice, criterion, effects, environment, law, life, load,
-    materials, mission, model, motion, output, plating, stop,
+    accuracy, changing_friction, criterion, effects, environment, law, life, load, materials,
+    mission, model, motion, output, plating, plating_choice, stop,
 };
 
 /// A specification with its defaults.

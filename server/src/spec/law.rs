@@ -31,9 +31,9 @@ use api::spec::{
 use solver::scene;
 use solver::sides::{Side, Sides};
 
-use crate::spec::plating_choice::PlatingChoice;
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::materials::{by_side, name};
+use crate::spec::plating_choice::PlatingChoice;
 use crate::spec::sourced::{Sourced, assumed, source};
 use crate::spec::system::{ArchardPreset, Preset};
 pub(super) use numbers::numbers;
@@ -61,7 +61,8 @@ pub(crate) fn resolve(
     diagnostics: &mut Diagnostics,
 ) -> (Interface, Laws) {
     let (materials, resolved) = (by_side(materials), by_side(resolved));
-    let (friction, friction_law) = friction(given, materials, (preset, plating_choices), diagnostics);
+    let (friction, friction_law) =
+        friction(given, materials, (preset, plating_choices), diagnostics);
     let coefficient = friction_law.unworn();
     let wear = Sides::from_fn(|at| {
         let law = match at {
@@ -70,7 +71,8 @@ pub(crate) fn resolve(
         };
         let metal = Material::Named(preset.materials.of(at).value.to_owned());
         // The base of a preset that is plated is a metal as any other that is named.
-        let is_plated = !preset.plating.of(at).is_empty() && *plating_choices.of(at) != PlatingChoice::Bare;
+        let is_plated =
+            !preset.plating.of(at).is_empty() && *plating_choices.of(at) != PlatingChoice::Bare;
         let is_metal_of_preset = |material: &&Material| name(material) == name(&metal);
         let other = materials.of(at).filter(|given| !is_metal_of_preset(given));
         let side = WearingSide {

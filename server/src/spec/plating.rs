@@ -7,11 +7,11 @@ use solver::law::softening::REFERENCE_C;
 use solver::scene::{self, Layer, MOST_LAYERS};
 use solver::sides::Sides;
 
-use crate::spec::plating_choice::{self, PlatingChoice};
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::law;
 use crate::spec::law::wearing_side::WearingSide;
 use crate::spec::materials;
+use crate::spec::plating_choice::{self, PlatingChoice};
 use crate::spec::system::LayerPreset;
 use crate::spec::unit;
 

@@ -9,8 +9,8 @@ use crate::queue::Transition;
 use crate::store::{Claim, End, JobUpdate, Lease, LeaseState, Store};
 use crate::worker::computed::Computed;
 use crate::worker::config::{RETRY, WorkerConfig};
-use crate::worker::job_source::{JobSource, JobSourceError};
 use crate::worker::health::Round;
+use crate::worker::job_source::{JobSource, JobSourceError};
 use crate::worker::manifest::{Documents, make_documents};
 
 /// Heartbeats within a lease.

@@ -9,8 +9,8 @@ use uuid::Uuid;
 use crate::queue::{Capacity, MemoryBudget};
 use crate::store::{Claim, ClaimRequest, RequestNumber};
 use crate::worker::config::{RETRY, WorkerConfig};
-use crate::worker::job_source::{JobSource, JobSourceError};
 use crate::worker::health::{Round, WorkerHealth};
+use crate::worker::job_source::{JobSource, JobSourceError};
 
 /// The workers of one process.
 #[derive(Debug)]

@@ -10,8 +10,8 @@ use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::{ClaimedCheckpoint, End, LeaseState};
 use crate::worker::attempt::{Attempt, retry};
 use crate::worker::config::RETRY;
-use crate::worker::job_source::{JobSource, JobSourceError};
 use crate::worker::end::{STOPPED, cancelled, deadline_passed};
+use crate::worker::job_source::{JobSource, JobSourceError};
 use crate::worker::update_buffer::UpdateBuffer;
 
 /// How an attempt starts.

@@ -17,10 +17,10 @@ use crate::spec;
 use crate::store::{ClaimedCheckpoint, End, LeaseState};
 use crate::worker::attempt::{Attempt, retry};
 use crate::worker::config::RETRY;
-use crate::worker::job_source::{JobSource, JobSourceError};
 use crate::worker::end::{
     STOPPED, cancelled, deadline_passed, declined, end_by_exit, failed, not_started,
 };
+use crate::worker::job_source::{JobSource, JobSourceError};
 use crate::worker::resume::{Start, start_of};
 use crate::worker::update_buffer::UpdateBuffer;
 

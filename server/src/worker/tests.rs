@@ -195,7 +195,9 @@ async fn a_job_whose_last_worker_is_lost_has_documents_of_its_results() {
 
 #[tokio::test]
 async fn a_stop_before_a_restart_discards_the_rows_of_the_restarted_run() {
-    let restarted = serde_json::to_string(&ChildMessage::Restarted("it is of another version".to_owned()));
+    let restarted = serde_json::to_string(&ChildMessage::Restarted(
+        "it is of another version".to_owned(),
+    ));
     let row = serde_json::to_string(&ChildMessage::Cycle(Box::new(row(1)))).expect("a line");
     // It reports the restart only when it is asked to end.
     let script = format!(

@@ -169,7 +169,12 @@ impl Common {
                 common: self,
                 sender,
             };
-            let solved = run::by_plan((&companion, plan), from, &EarlierRuns::default(), &mut observer);
+            let solved = run::by_plan(
+                (&companion, plan),
+                from,
+                &EarlierRuns::default(),
+                &mut observer,
+            );
             let ended = Progress::Ended(number, Box::new(solved));
             if sender.send(ended).is_err() {
                 return;

@@ -12,7 +12,9 @@ use std::ops::ControlFlow;
 
 use super::resistance::{self, Consequence};
 use crate::SolveError;
-use crate::checkpoint::{EarlierRuns, ExtrudedRun, FiniteRun, LineRun, CheckpointMismatch, PointRun};
+use crate::checkpoint::{
+    CheckpointMismatch, EarlierRuns, ExtrudedRun, FiniteRun, LineRun, PointRun,
+};
 use crate::effects::EffectsPlan;
 use crate::electrical::{ElectricalChange, ElectricalState};
 use crate::extruded::ExtrudedIntegrator;

@@ -14,7 +14,7 @@ use server::store::block::{Block, EncodedBlock};
 use server::store::{
     Claim, ClaimRequest, End, EventName, JobUpdate, Lease, LeaseState, RequestNumber,
 };
-use server::worker::{Employer, EmployerError, Remote, RemoteOptions};
+use server::worker::{JobSource, JobSourceError, Remote, RemoteOptions};
 use tokio::task::JoinSet;
 use uuid::Uuid;
 
@@ -122,7 +122,7 @@ impl Simulated {
     }
 
     /// Repeats a request until it is answered, and then once more at random: its answer was lost.
-    async fn answered<T, F: Future<Output = Result<T, EmployerError>>>(
+    async fn answered<T, F: Future<Output = Result<T, JobSourceError>>>(
         &mut self,
         request: impl Fn() -> F,
     ) -> T {

@@ -27,7 +27,11 @@ const WAITING: &str = "waiting";
 const PAUSE: Duration = Duration::from_secs(1);
 
 /// Tells the changes of this process until the store is closed.
-pub(super) async fn notify(pool: PgPool, process: Uuid, mut notifications: UnboundedReceiver<Notification>) {
+pub(super) async fn notify(
+    pool: PgPool,
+    process: Uuid,
+    mut notifications: UnboundedReceiver<Notification>,
+) {
     while let Some(first) = notifications.recv().await {
         sleep(INTERVAL).await;
         let mut changes = BTreeSet::from([first]);

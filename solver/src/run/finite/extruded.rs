@@ -3,7 +3,7 @@
 use super::sections::{Sections, State};
 use crate::SolveError;
 use crate::along_line::{Ending, StationCycle, StationProfile};
-use crate::checkpoint::{ExtrudedRun, CheckpointMismatch, Resumable};
+use crate::checkpoint::{CheckpointMismatch, ExtrudedRun, Resumable};
 use crate::contact::{ContactState, Work};
 use crate::cycle::FrictionLoop;
 use crate::effects::EffectsPlan;
