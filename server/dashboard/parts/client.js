@@ -1,6 +1,6 @@
 // Requests to the interface of the service, with the access token where it needs one.
 
-import { request } from "./connection.js";
+import { request, Unreachable } from "./connection.js";
 import { ask_for_token } from "./token.js";
 
 /** A problem document (RFC 9457) as an error. */
@@ -55,7 +55,11 @@ export async function fetch_answer(path, options) {
   const response = await send(path, options);
   const { headers } = response;
   if (response.status === 204) return { body: null, headers };
-  const body = await response.json().catch(() => null);
+  const body = await response.json().catch((error) => {
+    // An answer without a body is null; one that breaks off is none, because its page was left or the connection was lost.
+    if (!response.ok || error instanceof SyntaxError) return null;
+    throw error.name === "AbortError" ? error : new Unreachable();
+  });
   if (!response.ok) throw new Problem(body?.detail ?? body?.title ?? `${path}: ${response.status}`, response.status, body?.faults);
   return { body, headers };
 }

@@ -53,15 +53,15 @@ declare_report! {
     channels {
         /// Resistance of the contact: constriction in both sides, films and the way through the bodies, mOhm.
         contact_resistance_mohm ["mohm"] = found.total_mohm,
-        /// Part by the constriction in the slider and its layers, mOhm.
+        /// Part of it by the constriction in the slider and its layers, mOhm.
         slider_constriction_mohm ["mohm"] = found.constriction_mohm.slider,
-        /// Part by the constriction in the receptacle and its layers, mOhm.
+        /// Part of it by the constriction in the receptacle and its layers, mOhm.
         receptacle_constriction_mohm ["mohm"] = found.constriction_mohm.receptacle,
-        /// Part by films on exposed metals, mOhm.
+        /// Part of it by films on exposed metals, mOhm.
         film_resistance_mohm ["mohm"] = found.film_mohm,
-        /// Part by the way of the current through the slider to its far face, mOhm.
+        /// Part of it by the way of the current through the slider to its far face, mOhm.
         slider_bulk_mohm ["mohm"] = found.bulk_mohm.slider,
-        /// Part by the way of the current through the receptacle to its far face, mOhm.
+        /// Part of it by the way of the current through the receptacle to its far face, mOhm.
         receptacle_bulk_mohm ["mohm"] = found.bulk_mohm.receptacle,
         /// Part of the contact's length on which a side shows a metal with a film, -.
         filmed_fraction ["fraction"] = found.filmed_fraction,
