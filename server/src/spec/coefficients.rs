@@ -75,7 +75,7 @@ mod tests {
     fn constants(law: WearLawName) -> &'static str {
         match law {
             WearLawName::Archard | WearLawName::Sarkar => r#""k":0.002,"hardness_mpa":1700"#,
-            WearLawName::Saracibar => r#""k_over_h_per_mpa":1e-6,"reference_friction":0.5"#,
+            WearLawName::Saracibar => r#""k":0.002,"hardness_mpa":1700,"reference_friction":0.5"#,
             WearLawName::DissipatedEnergy => r#""energy_coefficient_mm3_per_j":2e-3"#,
             WearLawName::Barwell => {
                 r#""k":0.002,"hardness_mpa":1700,"course":"decelerating","characteristic_dose_mpa_mm":1000"#
@@ -144,6 +144,24 @@ mod tests {
             assert!(before > 1.01 * hertz_half_width(&changed), "{law:?} wears");
             let off = (after / before - 1.0).abs();
             assert!(off < 1e-9, "{law:?}: {before} {after}");
+        }
+    }
+
+    /// A law takes a hardness exactly if its rate depends on it.
+    #[test]
+    fn the_rates_of_these_laws_depend_on_hardness() {
+        for law in WearLawName::ALL {
+            let mut changed = scene(law, 0.4);
+            let before = worn_contact_half_length_mm(&changed.scene);
+            let wear = &mut changed.spec.interface.wear.receptacle;
+            let wear = wear.as_mut().and_then(Option::as_mut).expect("a law");
+            wear.hardness_mpa = Some(3400.0);
+            let resolved = spec::resolve(&changed.spec);
+            let by_hardness = properties(law).by_hardness;
+            assert_eq!(resolved.is_ok(), by_hardness, "{law:?}");
+            let after = resolved.map(|resolved| worn_contact_half_length_mm(&resolved.scene));
+            let changes = after.is_ok_and(|after| (after / before - 1.0).abs() > 1e-6);
+            assert_eq!(changes, by_hardness, "{law:?}");
         }
     }
 

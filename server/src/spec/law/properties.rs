@@ -2,7 +2,7 @@
 
 use api::spec::{WearLaw, WearLawName};
 
-/// What the rate of a law depends on besides pressure and slip, and the constants that set it.
+/// Dependences of the rate of a law besides pressure and slip, and the constants that set it.
 pub(in crate::spec) struct Properties {
     /// The rate depends on the coefficient of friction.
     pub(in crate::spec) by_friction: bool,
@@ -41,74 +41,100 @@ impl Scaling {
     }
 }
 
-const K: Constant = Constant {
-    field: "k",
-    of: |law| &mut law.k,
-    scaling: Scaling::Proportional,
-};
-const K_OVER_H: Constant = Constant {
-    field: "k_over_h_per_mpa",
-    of: |law| &mut law.k_over_h_per_mpa,
-    scaling: Scaling::Proportional,
-};
-const ENERGY: Constant = Constant {
-    field: "energy_coefficient_mm3_per_j",
-    of: |law| &mut law.energy_coefficient_mm3_per_j,
-    scaling: Scaling::Proportional,
-};
+const fn proportional(field: &'static str, of: fn(&mut WearLaw) -> &mut Option<f64>) -> Constant {
+    Constant {
+        field,
+        of,
+        scaling: Scaling::Proportional,
+    }
+}
+
+const K: Constant = proportional("k", |law| &mut law.k);
+const K_OVER_H: Constant = proportional("k_over_h_per_mpa", |law| &mut law.k_over_h_per_mpa);
+const ENERGY: Constant = proportional("energy_coefficient_mm3_per_j", |law| {
+    &mut law.energy_coefficient_mm3_per_j
+});
 /// The dose after which a rate has changed.
 const DOSE: Constant = Constant {
-    field: "characteristic_dose_mpa_mm",
-    of: |law| &mut law.characteristic_dose_mpa_mm,
     scaling: Scaling::Inverse,
+    ..proportional("characteristic_dose_mpa_mm", |law| {
+        &mut law.characteristic_dose_mpa_mm
+    })
 };
-const GROWTH_BY_MASS: Constant = Constant {
-    field: "arrhenius_constant_kg2_m4s",
-    of: |law| &mut law.arrhenius_constant_kg2_m4s,
-    scaling: Scaling::Proportional,
-};
-const GROWTH: Constant = Constant {
-    field: "arrhenius_constant_m2_s",
-    of: |law| &mut law.arrhenius_constant_m2_s,
-    scaling: Scaling::Proportional,
-};
-const MOLTEN: Constant = Constant {
-    field: "molten_fraction",
-    of: |law| &mut law.molten_fraction,
-    scaling: Scaling::Proportional,
-};
+const GROWTH_BY_MASS: Constant = proportional("arrhenius_constant_kg2_m4s", |law| {
+    &mut law.arrhenius_constant_kg2_m4s
+});
+const GROWTH: Constant = proportional("arrhenius_constant_m2_s", |law| {
+    &mut law.arrhenius_constant_m2_s
+});
+const MOLTEN: Constant = proportional("molten_fraction", |law| &mut law.molten_fraction);
+const FACTOR_OF_STRAIN: Constant = proportional("wear_factor", |law| &mut law.wear_factor);
 const FACTOR_OF_TIME: Constant = Constant {
-    field: "wear_factor",
-    of: |law| &mut law.wear_factor,
     scaling: Scaling::Power(|law| law.time_exponent),
+    ..FACTOR_OF_STRAIN
 };
 const FACTOR_OF_REPETITIONS: Constant = Constant {
     scaling: Scaling::Power(|law| law.repetition_exponent),
-    ..FACTOR_OF_TIME
-};
-const FACTOR_OF_STRAIN: Constant = Constant {
-    scaling: Scaling::Proportional,
-    ..FACTOR_OF_TIME
+    ..FACTOR_OF_STRAIN
 };
 
 /// The properties of a law.
 pub(in crate::spec) fn properties(law: WearLawName) -> Properties {
-    let (by_friction, by_hardness, constants): (_, _, &[Constant]) = match law {
-        WearLawName::Archard => (false, true, &[K, K_OVER_H]),
-        WearLawName::Sarkar | WearLawName::Saracibar => (true, true, &[K, K_OVER_H]),
-        WearLawName::DissipatedEnergy => (true, false, &[ENERGY]),
-        WearLawName::Barwell => (false, true, &[K, K_OVER_H, DOSE]),
-        WearLawName::Quinn => (false, true, &[GROWTH_BY_MASS]),
-        WearLawName::MildOxidation => (false, true, &[GROWTH]),
-        WearLawName::SevereOxidation => (true, true, &[MOLTEN]),
-        WearLawName::Oxidation => (true, true, &[K, K_OVER_H, GROWTH, MOLTEN]),
-        WearLawName::Rhee => (false, false, &[FACTOR_OF_TIME]),
-        WearLawName::LoadRepetition => (false, false, &[FACTOR_OF_REPETITIONS]),
-        WearLawName::StrainHardening => (false, false, &[FACTOR_OF_STRAIN]),
-    };
-    Properties {
-        by_friction,
-        by_hardness,
-        constants,
+    match law {
+        WearLawName::Archard => Properties {
+            by_friction: false,
+            by_hardness: true,
+            constants: &[K, K_OVER_H],
+        },
+        WearLawName::Sarkar | WearLawName::Saracibar => Properties {
+            by_friction: true,
+            by_hardness: true,
+            constants: &[K, K_OVER_H],
+        },
+        WearLawName::DissipatedEnergy => Properties {
+            by_friction: true,
+            by_hardness: false,
+            constants: &[ENERGY],
+        },
+        WearLawName::Barwell => Properties {
+            by_friction: false,
+            by_hardness: true,
+            constants: &[K, K_OVER_H, DOSE],
+        },
+        WearLawName::Quinn => Properties {
+            by_friction: false,
+            by_hardness: true,
+            constants: &[GROWTH_BY_MASS],
+        },
+        WearLawName::MildOxidation => Properties {
+            by_friction: false,
+            by_hardness: true,
+            constants: &[GROWTH],
+        },
+        WearLawName::SevereOxidation => Properties {
+            by_friction: true,
+            by_hardness: true,
+            constants: &[MOLTEN],
+        },
+        WearLawName::Oxidation => Properties {
+            by_friction: true,
+            by_hardness: true,
+            constants: &[K, K_OVER_H, GROWTH, MOLTEN],
+        },
+        WearLawName::Rhee => Properties {
+            by_friction: false,
+            by_hardness: false,
+            constants: &[FACTOR_OF_TIME],
+        },
+        WearLawName::LoadRepetition => Properties {
+            by_friction: false,
+            by_hardness: false,
+            constants: &[FACTOR_OF_REPETITIONS],
+        },
+        WearLawName::StrainHardening => Properties {
+            by_friction: false,
+            by_hardness: false,
+            constants: &[FACTOR_OF_STRAIN],
+        },
     }
 }
