@@ -139,7 +139,7 @@ impl EffectsPlan {
             for decision in &mut plan.decisions {
                 if decision.effect == crossing.effect && decision.verdict == Verdict::Skipped {
                     decision.verdict = Verdict::Simulated;
-                    decision.reason = reason::called_for(crossing.cycle, crossing.value);
+                    decision.reason = reason::required_by_run(crossing.cycle, crossing.value);
                 }
             }
         }

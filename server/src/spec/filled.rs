@@ -11,6 +11,7 @@ use solver::sides::Sides;
 
 use crate::spec::conductors::{self, Conductors};
 use crate::spec::diagnostics::Diagnostics;
+use crate::spec::law::LawDefaults;
 use crate::spec::load::LineLoad;
 use crate::spec::movement::Movement;
 use crate::spec::system::{self, Preset};
@@ -41,18 +42,19 @@ pub(super) fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics)
     let preset = plating_choice::preset_for_motion(spec, (system::definition(kind).preset)());
     let (system, shapes) = system::resolve(kind, &spec.system, diagnostics);
     let (materials, elastic) = materials::resolve(&spec.materials, &preset, diagnostics);
-    let plating_choices = plating_choice::resolve(spec, &preset);
-    let plated = plating_choices.map(|plating_choice| plating_choice.is_plated());
-    let surroundings_c = spec.environment.temperature_c.unwrap_or(REFERENCE_C);
-    let (interface, laws) = law::resolve(
-        &spec.interface,
-        &spec.materials,
-        &materials,
-        (&preset, plating_choices, surroundings_c),
+    let defaults = LawDefaults {
+        preset: &preset,
+        plating_choices: plating_choice::resolve(spec, &preset),
+        surroundings_c: spec.environment.temperature_c.unwrap_or(REFERENCE_C),
+    };
+    let plated = defaults.plating_choices.map(|choice| choice.is_plated());
+    let (interface, laws) = law::resolve(spec, &materials, defaults, diagnostics);
+    law::check_plated_sides(&laws, plated, diagnostics);
+    let (platings, layers) = plating::resolve(
+        defaults.plating_choices,
+        laws.friction.unworn(),
         diagnostics,
     );
-    law::check_plated_sides(&laws, plated, diagnostics);
-    let (platings, layers) = plating::resolve(plating_choices, laws.friction.unworn(), diagnostics);
     let laws = changing_friction::with_layers(laws, (&platings, &layers), diagnostics);
     let (model, dimension) = model::resolve(spec.model.as_ref(), (&shapes, kind), diagnostics);
     let (load, line_load) = resolve_load(spec, (&preset, dimension), &shapes, diagnostics);
@@ -111,7 +113,7 @@ pub(super) fn fill(spec: &Spec, kind: SystemKind, diagnostics: &mut Diagnostics)
         slider,
         receptacle,
         friction: laws.friction.until(crate::number::real(cycles)),
-        temperature_c: surroundings_c,
+        temperature_c: defaults.surroundings_c,
         load_n_per_mm: line_load.n_per_mm,
         spring_n_per_mm2: line_load.spring_n_per_mm2,
         drive: movement.drive,

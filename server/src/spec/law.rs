@@ -26,7 +26,7 @@ pub(super) mod wearing_side;
 use std::ops::RangeInclusive;
 
 use api::spec::{
-    Friction, FrictionLaw, Interface, Material, Materials, Provenance, WearLaw, WearLawName,
+    Friction, FrictionLaw, Interface, Material, Materials, Provenance, Spec, WearLaw, WearLawName,
 };
 use solver::scene;
 use solver::sides::{Side, Sides};
@@ -51,18 +51,30 @@ pub(crate) struct Laws {
     pub(crate) wear: Sides<Option<scene::WearLaw>>,
 }
 
-/// Resolves friction and the wear of the bodies, below a plating where they are plated. `materials` as given, `resolved` with their
+/// Inputs of the laws besides the interface of a specification.
+#[derive(Clone, Copy)]
+pub(crate) struct LawDefaults<'a> {
+    pub(crate) preset: &'a Preset,
+    pub(crate) plating_choices: Sides<PlatingChoice<'a>>,
+    pub(crate) surroundings_c: f64,
+}
+
+/// Resolves friction and the wear of the bodies, below a plating where they are plated. `resolved` are the materials with their
 /// properties.
 pub(crate) fn resolve(
-    given: &Interface,
-    materials: &Materials,
+    spec: &Spec,
     resolved: &Materials,
-    (preset, plating_choices, surroundings_c): (&Preset, Sides<PlatingChoice<'_>>, f64),
+    defaults: LawDefaults<'_>,
     diagnostics: &mut Diagnostics,
 ) -> (Interface, Laws) {
-    let (materials, resolved) = (by_side(materials), by_side(resolved));
-    let (friction, friction_law) =
-        friction(given, materials, (preset, plating_choices), diagnostics);
+    let given = &spec.interface;
+    let (materials, resolved) = (by_side(&spec.materials), by_side(resolved));
+    let LawDefaults {
+        preset,
+        plating_choices,
+        surroundings_c,
+    } = defaults;
+    let (friction, friction_law) = friction(given, materials, defaults, diagnostics);
     let coefficient = friction_law.unworn();
     let wear = Sides::from_fn(|at| {
         let law = match at {
@@ -115,10 +127,11 @@ pub(crate) fn resolve(
 fn friction(
     given: &Interface,
     materials: Sides<Option<&Material>>,
-    (preset, plating_choices): (&Preset, Sides<PlatingChoice<'_>>),
+    defaults: LawDefaults<'_>,
     diagnostics: &mut Diagnostics,
 ) -> (Friction, scene::Friction) {
-    let of_preset = preset_friction::coefficient(materials, preset, plating_choices);
+    let of_preset =
+        preset_friction::coefficient(materials, defaults.preset, defaults.plating_choices);
     let Some(given) = &given.friction else {
         return coulomb::from_preset(of_preset, diagnostics);
     };

@@ -4,7 +4,7 @@ use super::decision::{Decision, Indicator, Verdict};
 use super::dimension::can_simulate;
 use super::indicators::Indicators;
 use super::plasticity::Yield;
-use super::reason::{DecisionBasis, reason};
+use super::reason::{Decided, DecisionBasis, reason};
 use super::small_strain;
 use crate::scene::Effect;
 
@@ -35,31 +35,36 @@ pub(super) fn decide(
         let nothing = nothing_to_simulate(scene, effect, is_on);
         let missing =
             missing_input(scene, effect).or_else(|| missing_heat(scene, indicators, effect));
-        let grounds = match (nothing, missing) {
+        let basis = match (nothing, missing) {
             (Some(nothing), _) => DecisionBasis::Nothing(nothing),
             (None, Some(missing)) => DecisionBasis::Missing(missing),
             (None, None) => DecisionBasis::Indicator(indicator(scene, indicators, effect)),
         };
-        let verdict = verdict(scene, effect, grounds, called_for.contains(&effect));
+        let is_required = called_for.contains(&effect);
+        let verdict = verdict(scene, effect, basis, is_required);
         decisions.push(Decision {
             effect,
             verdict,
-            indicator: grounds.indicator(),
+            indicator: basis.indicator(),
             is_available: can_simulate(scene, effect),
             reason: reason(
                 scene,
                 indicators,
                 effect,
-                (verdict, grounds, called_for.contains(&effect)),
+                Decided {
+                    verdict,
+                    basis,
+                    is_required,
+                },
             ),
         });
     }
     decisions
 }
 
-fn verdict(scene: &Scene, effect: Effect, grounds: DecisionBasis, called_for: bool) -> Verdict {
+fn verdict(scene: &Scene, effect: Effect, basis: DecisionBasis, is_required: bool) -> Verdict {
     let switch = scene.effects.of(effect);
-    let indicator = match grounds {
+    let indicator = match basis {
         DecisionBasis::Nothing(_) => return Verdict::Skipped,
         DecisionBasis::Missing(_) if switch == Some(false) => return Verdict::ForcedOff,
         DecisionBasis::Missing(_) => return Verdict::InputMissing,
@@ -71,7 +76,7 @@ fn verdict(scene: &Scene, effect: Effect, grounds: DecisionBasis, called_for: bo
         Some(true) => Verdict::ForcedOn,
         Some(false) => Verdict::ForcedOff,
         None if !can_simulate(scene, effect) => Verdict::Skipped,
-        None if called_for || needed || indicator.value() > indicator.threshold => {
+        None if is_required || needed || indicator.value() > indicator.threshold => {
             Verdict::Simulated
         }
         None => Verdict::Skipped,

@@ -31,14 +31,28 @@ impl DecisionBasis {
     }
 }
 
+/// A decision, and what it is based on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Decided {
+    pub(super) verdict: Verdict,
+    pub(super) basis: DecisionBasis,
+    /// True if the run or the budget requires the effect.
+    pub(super) is_required: bool,
+}
+
 /// The reason of a decision.
 pub(super) fn reason(
     scene: &Scene,
     indicators: &Indicators<'_>,
     effect: Effect,
-    (verdict, grounds, called_for): (Verdict, DecisionBasis, bool),
+    decided: Decided,
 ) -> String {
-    let indicator = match grounds {
+    let Decided {
+        verdict,
+        basis,
+        is_required,
+    } = decided;
+    let indicator = match basis {
         DecisionBasis::Nothing(words) | DecisionBasis::Missing(words) => return words.to_owned(),
         DecisionBasis::Indicator(indicator) => indicator,
     };
@@ -116,7 +130,7 @@ pub(super) fn reason(
     } else {
         ""
     };
-    let together = if called_for && verdict == Verdict::Simulated {
+    let together = if is_required && verdict == Verdict::Simulated {
         ", and more than half of the tolerance together with all that is left out"
     } else {
         ""
@@ -239,7 +253,7 @@ fn follows_friction(scene: &Scene, effect: Effect) -> bool {
 }
 
 /// The reason of an effect that a run has required.
-pub(super) fn called_for(cycle: u64, value: Option<f64>) -> String {
+pub(super) fn required_by_run(cycle: u64, value: Option<f64>) -> String {
     match value {
         Some(value) => format!(
             "called for by the run: {} after cycle {cycle}",

@@ -8,7 +8,7 @@ use crate::spec::plating_choice::PlatingChoice;
 use crate::spec::sourced::{Sourced, assumed};
 use crate::spec::system::{FrictionPreset, Preset};
 
-/// The coefficient of a preset for parts with these plating_choices and given materials.
+/// The coefficient of a preset for parts with these platings and given materials.
 pub(super) fn coefficient(
     materials: Sides<Option<&Material>>,
     preset: &Preset,
