@@ -14,6 +14,7 @@ mod specification;
 
 use std::sync::OnceLock;
 
+use crate::http::problem::MEDIA_TYPE;
 use serde_json::{Value, json};
 use solver::record::{Channels, CycleReport, ResistanceReport, SideReport, TemperatureReport};
 
@@ -124,7 +125,7 @@ fn complete_operation(noun: Option<&str>, operation: &mut Value) {
         responses.entry(status).or_insert_with(|| {
             json!({
                 "description": description,
-                "content": {"application/problem+json": {"schema": {"$ref": "#/components/schemas/Problem"}}}
+                "content": {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
             })
         });
     };
@@ -184,7 +185,7 @@ fn set_problem_media_type(response: &mut Value) {
     if reference == "#/components/schemas/Problem"
         && let Some(body) = content.remove("application/json")
     {
-        content.insert("application/problem+json".to_owned(), body);
+        content.insert(MEDIA_TYPE.to_owned(), body);
     }
 }
 
@@ -209,7 +210,7 @@ mod tests {
             for (method, operation) in methods.as_object().expect("methods") {
                 let responses = operation["responses"].as_object();
                 for (status, response) in responses.into_iter().flatten() {
-                    let content = &response["content"]["application/problem+json"];
+                    let content = &response["content"][MEDIA_TYPE];
                     let examples = content["examples"].as_object();
                     let is_typed = examples.is_some_and(|examples| !examples.is_empty());
                     assert!(content.is_null() || is_typed, "{method} {path} {status}");

@@ -14,7 +14,7 @@ use crate::store::{ContentError, StoreError};
 use crate::worker::JobSourceError;
 
 /// Media type of a problem document.
-const MEDIA_TYPE: &str = "application/problem+json";
+pub(in crate::http) const MEDIA_TYPE: &str = "application/problem+json";
 
 /// `Retry-After` of a request that the service cannot take at present, s.
 const RETRY_AFTER_S: &str = "5";

@@ -98,8 +98,7 @@ impl Service {
                 .as_str()
                 .is_some_and(|kind| kind.starts_with("/problems/"))
         {
-            let listed =
-                openapi::problems::is_listed(openapi::document(), (method, path), &problem);
+            let listed = openapi::problems::is_listed(openapi::document(), method, path, &problem);
             assert_ne!(listed, Some(false), "{method} {path}: {problem}");
         }
         (parts.status, parts.headers, bytes.to_vec())

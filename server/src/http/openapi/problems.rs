@@ -2,17 +2,14 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::http::problem::ProblemType;
-
-/// Media type of problem documents.
-const MEDIA_TYPE: &str = "application/problem+json";
+use crate::http::problem::{MEDIA_TYPE, ProblemType};
 
 /// Where the document has an example of each type.
 const EXAMPLES: &str = "#/components/examples/";
 
 /// Names of the problem types whose resource a path has to name.
 const OF_RESOURCES: [(&str, &[&str]); 7] = [
-    ("/v1/jobs/", &["no-such-job", "job-active", "job-succeeded"]),
+    ("/v1/jobs/", &["no-such-job"]),
     ("/v1/sweeps/", &["no-such-sweep", "sweep-active"]),
     ("/v1/studies/", &["no-such-study", "study-active"]),
     ("/v1/worker-tokens/", &["no-such-token"]),
@@ -20,6 +17,9 @@ const OF_RESOURCES: [(&str, &[&str]); 7] = [
     ("/v1/systems/", &["no-such-system"]),
     ("/problems/", &["no-such-path"]),
 ];
+
+/// The operation that solves a job again.
+const RETRY_OF_JOB: &str = "/v1/jobs/{id}/retry";
 
 /// Types of requests of the protocol between workers and service, which the document does not describe.
 const OF_WORKERS: [&str; 4] = [
@@ -79,6 +79,9 @@ fn is_possible(name: &str, path: &str, method: &str, has_body: bool) -> bool {
     }
     let is_of_results = path.contains("/results");
     match name {
+        // Only a job that has not succeeded is solved again, and only one that has ended is deleted or archived.
+        "job-succeeded" => path == RETRY_OF_JOB,
+        "job-active" => path.starts_with("/v1/jobs/") && path != RETRY_OF_JOB,
         "no-such-result" | "result-damaged" => {
             let ends = ["/base", "/picture", "/spec", "/table"];
             is_of_results || ends.iter().any(|end| path.ends_with(end))
@@ -98,20 +101,16 @@ fn is_possible(name: &str, path: &str, method: &str, has_body: bool) -> bool {
 #[cfg(test)]
 pub(in crate::http) fn is_listed(
     document: &Value,
-    (method, path): (&str, &str),
+    method: &str,
+    path: &str,
     problem: &Value,
 ) -> Option<bool> {
     let path = path.split('?').next().unwrap_or_default();
     let paths = document["paths"].as_object()?;
-    let parts = |path: &str| path.split('/').map(str::to_owned).collect::<Vec<_>>();
-    let asked = parts(path);
     let matches = |template: &str| {
-        let template = parts(template);
-        template.len() == asked.len()
-            && template
-                .iter()
-                .zip(&asked)
-                .all(|(own, asked)| own.starts_with('{') || own == asked)
+        let mut parts = template.split('/').zip(path.split('/'));
+        template.matches('/').count() == path.matches('/').count()
+            && parts.all(|(own, asked)| own.starts_with('{') || own == asked)
     };
     // A path without a parameter comes before one with: /v1/sweeps/plans, /v1/sweeps/{id}.
     let mut found: Vec<_> = paths.iter().filter(|(path, _)| matches(path)).collect();
