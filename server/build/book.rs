@@ -1,6 +1,5 @@
 //! The book as pages: Markdown of `docs`, with a list of all pages beside each.
 
-use std::fmt::Write as _;
 use std::fs;
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -21,14 +20,15 @@ pub(crate) fn pages() -> io::Result<Vec<(String, Vec<u8>)>> {
     let summary = fs::read_to_string(Path::new(FOLDER).join("SUMMARY.md"))?;
     // Without its own heading.
     let (_, list) = summary.split_once('\n').unwrap_or_default();
-    let contents = render(list, Path::new("")).replace("h1", "h2");
+    let contents = as_html(events(list, Path::new("")));
+    let contents = contents.replace("<h1>", "<h2>").replace("</h1>", "</h2>");
     let mut files = Vec::new();
     for path in listed(&summary) {
         let text = fs::read_to_string(Path::new(FOLDER).join(&path))?;
         let title = text.lines().next().unwrap_or_default();
         let title = title.trim_start_matches("# ").to_owned();
         let folder = path.parent().unwrap_or(Path::new(""));
-        let body = render(&text, folder);
+        let body = as_html(with_anchors(events(&text, folder)));
         let page = page(&title, &contents, &body);
         let name = path.with_extension("html");
         files.push((format!("book/{}", name.display()), page.into_bytes()));
@@ -56,51 +56,36 @@ fn page(title: &str, contents: &str, body: &str) -> String {
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}: fretwear</title>\n\
          <link rel=\"icon\" href=\"/assets/icon.svg\">\n<link rel=\"stylesheet\" href=\"/assets/style.css\">\n</head>\n\
          <body class=\"book\">\n<a class=\"skip\" href=\"#content\">skip to the content</a>\n\
-         <header><a class=\"brand\" href=\"/\">fretwear</a><nav aria-label=\"pages\"><a href=\"/\">Jobs</a><a href=\"/docs\">Interface</a></nav></header>\n\
+         <header><a class=\"brand\" href=\"/\">fretwear</a><nav aria-label=\"pages\"><a href=\"/\">Jobs</a><a href=\"/book\">Book</a><a href=\"/docs\">Interface</a></nav></header>\n\
          <nav aria-label=\"book\">{contents}</nav>\n<main id=\"content\" tabindex=\"-1\">\n{body}</main>\n</body>\n</html>\n"
     )
 }
 
-/// Markdown of a page in a folder of the book as HTML. A link that leads out of the book is its text alone.
-fn render(text: &str, folder: &Path) -> String {
-    let events = Parser::new_ext(text, Options::ENABLE_TABLES);
+/// Markdown of a page in a folder of the book. A link that leads out of the book is its text alone.
+fn events<'a>(text: &'a str, folder: &Path) -> Vec<Event<'a>> {
     let mut is_link = false;
-    let linked = events.filter_map(|event| match event {
-        Event::Start(Tag::Link {
-            link_type,
-            dest_url,
-            title,
-            id,
-        }) => {
-            let target = target(&dest_url, folder);
-            is_link = target.is_some();
-            let dest_url = CowStr::from(target?);
-            Some(Event::Start(Tag::Link {
-                link_type,
-                dest_url,
-                title,
-                id,
-            }))
+    let linked = |mut event: Event<'a>| {
+        match &mut event {
+            Event::Start(Tag::Link { dest_url, .. }) => {
+                let target = target(dest_url, folder);
+                is_link = target.is_some();
+                *dest_url = CowStr::from(target?);
+            }
+            Event::Start(Tag::Image { dest_url, .. }) => {
+                *dest_url = CowStr::from(target(dest_url, folder)?);
+            }
+            Event::End(TagEnd::Link) if !is_link => return None,
+            _ => {}
         }
-        Event::End(TagEnd::Link) => is_link.then_some(event),
-        Event::Start(Tag::Image {
-            link_type,
-            dest_url,
-            title,
-            id,
-        }) => {
-            let dest_url = CowStr::from(target(&dest_url, folder)?);
-            Some(Event::Start(Tag::Image {
-                link_type,
-                dest_url,
-                title,
-                id,
-            }))
-        }
-        other => Some(other),
-    });
+        Some(event)
+    };
+    let parser = Parser::new_ext(text, Options::ENABLE_TABLES);
+    parser.filter_map(linked).collect()
+}
+
+fn as_html(events: Vec<Event<'_>>) -> String {
     let mut page = String::new();
-    html::push_html(&mut page, with_anchors(linked.collect()).into_iter());
+    html::push_html(&mut page, events.into_iter());
     page
 }
 
@@ -165,8 +150,10 @@ fn with_anchors(events: Vec<Event<'_>>) -> Vec<Event<'_>> {
 /// Name of a heading: its words in lower case with hyphens.
 fn anchor(heading: &str) -> String {
     let kept = |c: &char| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_');
-    let mut name = String::new();
     let words = heading.trim().to_lowercase();
-    write!(name, "{}", words.chars().filter(kept).collect::<String>()).expect("a text grows");
-    name.replace(' ', "-")
+    words
+        .chars()
+        .filter(kept)
+        .collect::<String>()
+        .replace(' ', "-")
 }

@@ -242,11 +242,13 @@ mod tests {
         for page in pages {
             let text = text(page);
             for link in text.split("=\"/book/").skip(1) {
-                let target = link.split(['"', '#']).next().expect("a target");
-                let (status, ..) = service
-                    .text("GET", &format!("/book/{target}"), &[], "")
-                    .await;
-                assert_eq!(status, 200, "{}: {target}", page.path);
+                let link = link.split('"').next().expect("a target");
+                let (target, anchor) = link.split_once('#').unwrap_or((link, ""));
+                let target = format!("/book/{target}");
+                let (status, _, found) = service.text("GET", &target, &[], "").await;
+                assert_eq!(status, 200, "{}: {link}", page.path);
+                let is_heading = anchor.is_empty() || found.contains(&format!("id=\"{anchor}\""));
+                assert!(is_heading, "{}: {link}", page.path);
             }
         }
     }
