@@ -104,3 +104,10 @@ fn a_cycle_is_reported_with_the_lines_that_make_it() {
     ];
     assert_eq!(lines, expected);
 }
+
+#[test]
+fn a_file_and_a_folder_that_need_each_other_are_reported() {
+    let found = cycles::between_folders(&read());
+    let circles: Vec<&str> = found.iter().map(|circle| circle.what.as_str()).collect();
+    assert_eq!(circles, ["small/src/report", "small/src/shapes"]);
+}

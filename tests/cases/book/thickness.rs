@@ -3,10 +3,51 @@
 use serde_json::Value;
 use tests::{fretwear, fretwear_reading, spec};
 
+fn page(path: &str) -> String {
+    std::fs::read_to_string(super::house().join(path)).expect("the page is there")
+}
+
+#[test]
+fn the_figures_in_the_text_are_those_that_the_commands_print() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let path = spec("memory_card.json").display().to_string();
+    let run = |command: &str| fretwear(folder.path(), &[command, &path]).stdout;
+    let (plan, solved) = (run("plan"), run("solve"));
+    let (page, readme) = (page("docs/tutorial/thickness.md"), page("README.md"));
+    for (printed, figures) in [
+        (&plan, &["9.86", "2.42", "7.44"][..]),
+        (&solved, &["947190", "324321", "1.316"]),
+    ] {
+        for figure in figures {
+            assert!(printed.contains(figure), "{figure}: {printed}");
+            assert!(page.replace(' ', "").contains(figure), "{figure}");
+        }
+    }
+    // The row of the preset's thickness is what the front page names.
+    assert!(page.contains("| 0.76 | 1.32 | 0.45 |"), "{page}");
+    assert!(readme.contains("1.32 h") && readme.contains("0.45 h"));
+}
+
+#[test]
+fn the_specification_of_the_page_is_the_committed_one() {
+    let committed = std::fs::read_to_string(spec("memory_card.json")).expect("a specification");
+    let committed: Value = serde_json::from_str(&committed).expect("JSON");
+    let page = page("docs/tutorial/thickness.md");
+    let shown: Value = serde_json::from_str(super::blocks(&page, "json")[0]).expect("JSON");
+    assert_eq!(shown, committed);
+    let sweep = std::fs::read_to_string(spec("gold_thickness.json")).expect("a sweep");
+    let sweep: Value = serde_json::from_str(&sweep).expect("JSON");
+    assert_eq!(sweep["base"], committed);
+    let mut unnamed = committed;
+    unnamed.as_object_mut().expect("an object").remove("name");
+    let readme = self::page("README.md");
+    let shown: Value = serde_json::from_str(super::blocks(&readme, "json")[0]).expect("JSON");
+    assert_eq!(shown, unnamed);
+}
+
 #[test]
 fn the_table_of_thicknesses_is_what_the_specification_gives() {
-    let page = std::fs::read_to_string(super::house().join("docs/tutorial/thickness.md"));
-    let page = page.expect("the page is there");
+    let page = page("docs/tutorial/thickness.md");
     let rows = page
         .lines()
         .skip_while(|line| !line.starts_with("| gold, um |"));
