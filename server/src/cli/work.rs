@@ -100,7 +100,7 @@ impl Scratch {
 
 impl Drop for Scratch {
     fn drop(&mut self) {
-        // What is left does not work to another process.
+        // Another process has no use for the remaining files.
         let _ = fs_err::remove_dir_all(&self.0);
     }
 }

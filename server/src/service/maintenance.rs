@@ -149,7 +149,7 @@ async fn round(
     if let Some(days) = keep_days
         && let Err(error) = delete_old(store, days).await
     {
-        // What was reclaimed continues all the same.
+        // Reclaimed jobs continue all the same.
         tracing::error!(%error, "old jobs could not be deleted");
     }
     Ok(reclaimed)

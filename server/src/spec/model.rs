@@ -31,7 +31,7 @@ pub(super) enum Resolved {
     Line(Line),
     /// Extruded bodies.
     Extruded(Extruded),
-    /// What a slider of this width requires.
+    /// The dimension that a slider of this width requires.
     Auto(Line),
 }
 

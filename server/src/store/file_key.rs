@@ -2,7 +2,7 @@
 
 use uuid::Uuid;
 
-/// What keys begin with.
+/// Prefix of all keys.
 const PREFIX: &str = "files/";
 
 /// Returns `true` if a key is that of a file of a job.

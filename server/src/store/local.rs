@@ -23,7 +23,7 @@ const CHANGE_CAPACITY: usize = 1024;
 /// Memory of the files that are written to the store of objects at the same time, MB. Arbitrary.
 pub(in crate::store) const FILE_WRITES_MB: usize = 256;
 
-/// What the processes that serve the same database are notified of.
+/// Notification of the other processes that serve the same database.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(in crate::store) enum Notification {
     /// Jobs wait in the queue.

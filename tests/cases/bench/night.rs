@@ -8,7 +8,7 @@ use crate::bench::predictions::{self, Pair, Prediction, TOLERANCES};
 use crate::bench::{Row, cases};
 
 #[test]
-#[ignore = "night: a minute"]
+#[ignore = "night: three minutes"]
 fn the_time_of_each_case() {
     let mut table = markdown::table(["case", "size", "CPU"], 2);
     for (name, case) in cases::all() {
