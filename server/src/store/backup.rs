@@ -52,7 +52,7 @@ pub enum BackupError {
     Content {
         /// The file, in the folder of results.
         place: String,
-        /// How it differs.
+        /// The difference.
         cause: IntegrityError,
     },
     /// A manifest names a path outside of the folder of results.
@@ -60,7 +60,7 @@ pub enum BackupError {
     Place(String),
 }
 
-/// What was copied and verified.
+/// Jobs and files of a backup, a restore or a verification, with the damaged and unread ones.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct CopySummary {
     /// Number of jobs in the database.
@@ -69,11 +69,11 @@ pub struct CopySummary {
     pub files: usize,
     /// Size of the result files, bytes.
     pub file_bytes: u64,
-    /// The damaged ones, and how.
+    /// Damaged results, each with its damage.
     pub damaged: Vec<String>,
-    /// Those that could not be read, and why.
+    /// Results that could not be read, each with the cause.
     pub unread: Vec<String>,
-    /// Those that are not here: in the folder of another machine, or of the original of a copy.
+    /// Results that are stored elsewhere: in the folder of another machine, or by the original of a copy.
     pub elsewhere: Vec<String>,
     /// True if so many in succession could not be read that the others were not tried.
     pub has_ended_early: bool,

@@ -1,4 +1,4 @@
-//! Numbers of jobs of large batches that took long to be counted, kept for a while.
+//! Cache of the numbers of jobs by status, for large batches that take long to count.
 
 use std::collections::{BTreeMap, HashMap};
 use std::sync::{Mutex, PoisonError};
@@ -10,27 +10,27 @@ use uuid::Uuid;
 const SMALL: u64 = 10_000;
 /// A count that takes no longer is made again each time.
 const QUICK: Duration = Duration::from_millis(20);
-/// How many times as long as it took a count is kept: counting takes a twentieth of a processor at most.
+/// Ratio of the time that a count is cached to the time that it took: counting takes a twentieth of a processor at most.
 const KEPT_TIMES: u32 = 20;
 
 /// Number of jobs by status.
 type Counts = BTreeMap<String, u64>;
 
-/// The counts.
+/// Cached counts of batches, each with the end of its validity.
 #[derive(Debug, Default)]
 pub(in crate::store) struct BatchCounts {
     kept: Mutex<HashMap<Uuid, (Instant, Counts)>>,
 }
 
 impl BatchCounts {
-    /// What was counted a short while ago.
+    /// Returns the cached count of a batch, if it is still valid.
     pub(in crate::store) fn kept(&self, batch: Uuid) -> Option<Counts> {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         kept.retain(|_, (until, _)| Instant::now() < *until);
         kept.get(&batch).map(|(_, counts)| counts.clone())
     }
 
-    /// Keeps what was counted since a time, if that took long.
+    /// Caches a count that began at a time, if it took long.
     pub(in crate::store) fn keep(&self, batch: Uuid, counts: &Counts, began: Instant) {
         let took = began.elapsed();
         if took > QUICK && counts.values().sum::<u64>() > SMALL {

@@ -22,14 +22,14 @@ pub(in crate::store) const STORED_REFUSALS: u64 = 100;
 /// End of all jobs of a batch, a limited number at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BatchEnding {
-    /// They are cancelled.
+    /// The jobs are cancelled.
     Cancel,
-    /// They are deleted, and the batch with the last of them.
+    /// The jobs are deleted, and the batch with the last of them.
     Delete,
 }
 
 impl BatchEnding {
-    /// As the database has it.
+    /// Name in the database.
     pub(in crate::store) fn as_str(self) -> &'static str {
         match self {
             Self::Cancel => "cancel",
@@ -73,13 +73,13 @@ pub struct NewBatchJob {
 /// The jobs of a batch that are queued only when others have been solved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NewExpansion {
-    /// What they are made from, JSON.
+    /// Request that the jobs are generated from, JSON.
     pub request: String,
     /// Position of the first of them.
     pub next: u64,
     /// Number of jobs in all.
     pub jobs: u64,
-    /// Processor time that is expected of one, s.
+    /// Estimated processor time of a job, s.
     pub cpu_s: Option<f64>,
 }
 
@@ -127,7 +127,7 @@ pub struct RefusedJob {
     pub position: u64,
     /// Changes against the base specification.
     pub overrides: Changes,
-    /// Why.
+    /// Reason for the refusal.
     pub reason: String,
 }
 
@@ -159,7 +159,7 @@ pub struct StoredBatch {
     pub overview: BatchOverview,
     /// Evaluation plan, JSON.
     pub plan: Option<String>,
-    /// What the jobs of its expansion are made from, JSON.
+    /// Request that the jobs of the expansion are generated from, JSON.
     pub request: Option<String>,
     /// The jobs that were asked for, in order, without those that were deleted.
     pub jobs: Vec<BatchJob>,

@@ -21,7 +21,7 @@ use crate::store::{IntegrityError, SnapshotPart, integrity};
 /// Largest length of the content of a block, bytes; it is read as a whole.
 const LIMIT: usize = 4 << 20;
 
-/// What an entry of a block is.
+/// Content of an entry in a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum Kind {
@@ -101,7 +101,7 @@ pub enum BlockError {
     /// The entries are damaged.
     #[error("its entries cannot be read: {0}")]
     Entries(#[from] serde_json::Error),
-    /// An entry is that of an object, or has a name that is none.
+    /// An entry belongs to an object, or its name is not that of a file.
     #[error("`{0}` is no entry of a block")]
     Foreign(String),
     /// The names of its documents are others.
@@ -165,7 +165,7 @@ impl Block {
         has_room
     }
 
-    /// Compresses it.
+    /// Compresses the block.
     ///
     /// # Errors
     /// If the entries cannot be written as JSON.
@@ -178,8 +178,7 @@ impl Block {
         })
     }
 
-    /// Decompresses a block. What cannot be decompressed is missing from the content, and is found by the checks of its
-    /// entries.
+    /// Decompresses a block. Damaged bytes are missing from the content; the checksums of the entries expose that.
     ///
     /// # Errors
     /// [`BlockError::Entries`].

@@ -16,13 +16,13 @@ use crate::store::{Lease, Store, StoreError, integrity};
 
 /// Smallest state in an object, bytes: below, a request to a bucket costs more than a row. Arbitrary.
 const SMALLEST: usize = 64 << 10;
-/// Longest time for an object: the worker waits for it, also one that is asked to stop.
+/// Longest time for writing an object: the worker waits for it, even while it is stopping.
 const LONGEST: Duration = Duration::from_secs(3);
-/// Longest time for reading one.
+/// Longest time for reading an object.
 const LONGEST_READ: Duration = Duration::from_secs(30);
 
 impl Store {
-    /// Writes the state of a checkpoint to an object; its key, or `None` if the database is to have it.
+    /// Writes the state of a checkpoint to an object; returns its key, or `None` if the database is to have the state.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
@@ -31,7 +31,7 @@ impl Store {
         lease: Lease,
         checkpoint: &EncodedCheckpoint,
     ) -> Result<Option<String>, StoreError> {
-        // What replaces the checkpoints of a copied database would never be removed.
+        // Objects that replace checkpoints of a copied database would never be removed.
         if checkpoint.state.len() < SMALLEST || !self.local().removes_objects {
             return Ok(None);
         }

@@ -28,7 +28,7 @@ pub(in crate::store) fn decompress(bytes: &[u8], limit: usize) -> Vec<u8> {
     let mut content = Vec::new();
     let limit = u64::try_from(2 * limit).unwrap_or(u64::MAX);
     let mut reader = Decompressor::new(bytes, BUFFER).take(limit);
-    // What was read before an error stays.
+    // On an error, the bytes decompressed so far remain.
     let _ = reader.read_to_end(&mut content);
     content
 }

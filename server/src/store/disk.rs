@@ -99,7 +99,7 @@ impl DataDisk {
         Some(format!("waiting for disk space: {shortage}"))
     }
 
-    /// Notes that the file of the database is not at its path any more; whether this was known.
+    /// Notes that the file of the database is not at its path any more; returns whether this was known.
     pub(super) fn note_removed_database(&self) -> bool {
         self.is_database_removed.swap(true, Ordering::AcqRel)
     }
@@ -126,7 +126,7 @@ impl DataDisk {
         }
     }
 
-    /// Frees the reserved part if an operation failed because the disk is full; whether it did.
+    /// Frees the reserved part if an operation failed because the disk is full; returns whether it did.
     pub fn release_after(&self, error: &StoreError) -> bool {
         let releases = error.is_disk_full() && self.is_reserved.swap(false, Ordering::AcqRel);
         if releases {

@@ -15,16 +15,16 @@ pub(in crate::store) struct EndingJob {
     attempts: Attempts,
 }
 
-/// What a transition stores.
+/// Columns and event that a transition stores.
 pub(in crate::store) struct Ending {
     pub(in crate::store) status: Status,
     pub(in crate::store) status_reason: Option<String>,
     pub(in crate::store) outcome: Option<&'static str>,
-    /// JSON.
+    /// Summary of the result, JSON.
     pub(in crate::store) summary: Option<String>,
-    /// The worker gives the job back, which costs no attempt.
+    /// True if the worker releases the job, which costs no attempt.
     pub(in crate::store) is_released: bool,
-    /// The next attempt is left to another worker, if there is one.
+    /// True if the next attempt is left to another worker, if there is one.
     pub(in crate::store) is_left: bool,
     /// The document of the event `done`, for a job that ends.
     pub(in crate::store) done: Option<String>,
@@ -64,19 +64,19 @@ impl EndingJob {
         )
     }
 
-    /// Returns what an end stores; `None` if its transition is not allowed.
+    /// Returns the columns and the event that an end stores; `None` if its transition is not allowed.
     pub(in crate::store) fn ending(&self, end: &End) -> Result<Option<Ending>, StoreError> {
         let Some(status) = self.after(end.transition) else {
             return Ok(None);
         };
         let (status_reason, outcome) = reason_and_outcome(status, self.attempts, end);
-        // What a program has written before its end may have a character that databases cannot store in a text.
+        // The last output of a program may have the character U+0000, which databases cannot store in a text.
         let status_reason = status_reason.map(|reason| reason.replace('\0', "\u{fffd}"));
         let done = status.is_terminal().then(|| Done {
             status,
             status_reason: status_reason.clone(),
             outcome,
-            // That of a succeeded job stays, and is added where the event is read.
+            // The summary of a succeeded job stays in its row, and is added where the event is read.
             summary: (end.summary.clone()).filter(|_| status != Status::Succeeded),
         });
         Ok(Some(Ending {

@@ -47,7 +47,7 @@ pub enum StoreError {
     Foreign {
         /// The file.
         path: PathBuf,
-        /// What it was known by.
+        /// The evidence, such as its application id.
         found: String,
     },
     /// The database was written by a later version.
@@ -91,7 +91,7 @@ pub enum StoreError {
     /// The address of a PostgreSQL server is invalid. It is not shown: it may have a password.
     #[error("the address of the PostgreSQL database is invalid: {cause}")]
     Server {
-        /// Why.
+        /// Fault of the address.
         cause: String,
     },
     /// A PostgreSQL server beyond this machine whose name would not be verified.
@@ -110,7 +110,7 @@ pub enum StoreError {
         /// The oldest accepted version.
         oldest: i64,
     },
-    /// What is done with the database's own tools.
+    /// The operation is for SQLite databases only.
     #[error("this is for SQLite databases; of a PostgreSQL database, use pg_dump and pg_restore")]
     OnlySqlite,
     /// A schema migration failed.

@@ -74,7 +74,7 @@ impl Store {
         self.objects_of_files().is_some()
     }
 
-    /// A file for what arrives, which is removed when it is dropped.
+    /// Creates a file to receive into; it is removed when it is dropped.
     ///
     /// # Errors
     /// If it cannot be created.
@@ -105,7 +105,7 @@ impl Store {
         if kept.await? {
             return Ok(key);
         }
-        // It was noted too long ago, and may have been written after its removal.
+        // The note is too old: the object may have been written after its removal.
         objects.remove(&key).await?;
         Err(StoreError::LostFile(key))
     }
@@ -172,8 +172,8 @@ impl Store {
         Ok(Cow::Owned(update))
     }
 
-    /// The store of objects if it has the files of attempts: services on several machines share no folder. What replaces the files of a copied
-    /// database would never be removed.
+    /// The store of objects if it has the files of attempts: services on several machines share no folder. Objects that replace files of a
+    /// copied database would never be removed.
     fn objects_of_files(&self) -> Option<&Objects> {
         let is_used = self.is_shared() && self.local().removes_objects;
         self.local().objects.as_ref().filter(|_| is_used)

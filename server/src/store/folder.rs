@@ -16,9 +16,9 @@ pub(in crate::store) fn beside(database: &Path, suffix: &str) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// What the names of files begin with that arrive.
+/// Prefix of the names of files that are being received.
 const RECEIVED: &str = "received-";
-/// Longest time in which one arrives.
+/// Longest time for receiving a file.
 const LONGEST_RECEIPT: Duration = Duration::from_hours(1);
 
 /// The folder of large results.
@@ -62,7 +62,7 @@ impl Folder {
             .collect())
     }
 
-    /// A file for what arrives, which is removed when it is dropped.
+    /// Creates a file to receive into; it is removed when it is dropped.
     pub(in crate::store) fn received(&self) -> std::io::Result<TempPath> {
         fs_err::create_dir_all(&self.root)?;
         let file = tempfile::Builder::new()
@@ -71,7 +71,7 @@ impl Folder {
         Ok(file.into_temp_path())
     }
 
-    /// Removes files of processes that were killed while they arrived; returns their number. Other processes may be receiving here, too.
+    /// Removes partly received files of killed processes; returns their number. Other processes may be receiving files here, too.
     pub(in crate::store) fn remove_received(&self) -> std::io::Result<usize> {
         let mut removed = 0;
         for entry in entries(&self.root)? {
@@ -90,7 +90,7 @@ impl Folder {
         Ok(removed)
     }
 
-    /// Returns `true` if it is there: as long as no job has files it is not, and neither while the disk that it is on is not mounted.
+    /// Returns `true` if the folder exists. It does not before the first job has files, nor while its disk is not mounted.
     pub(in crate::store) fn exists(&self) -> bool {
         self.root.is_dir()
     }

@@ -1,4 +1,4 @@
-//! Gauges from what the tables tell.
+//! Gauges, computed from rows of the tables.
 
 use std::time::Duration;
 

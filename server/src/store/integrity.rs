@@ -1,4 +1,4 @@
-//! Integrity of stored results: whether a content is what its entry in the manifest says.
+//! Integrity of stored results: comparison of a content with its entry in the manifest.
 
 use std::fs::File;
 use std::io::{ErrorKind, Read};
@@ -35,7 +35,7 @@ pub enum IntegrityError {
         /// SHA-256 in the manifest.
         named: String,
     },
-    /// It cannot be read.
+    /// The content cannot be read.
     #[error("it cannot be read: {0}")]
     Read(#[source] std::io::Error),
 }

@@ -42,7 +42,7 @@ pub struct StoredJob {
     pub last_event: i64,
 }
 
-/// What a change of the jobs has left.
+/// State of a job after a change.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Changed {
     /// A job as it is now.

@@ -14,18 +14,18 @@ use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::NewFile;
 use crate::store::block::EncodedBlock;
 
-/// What a worker asks for.
+/// Request of a worker for jobs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ClaimRequest {
-    /// Who asks, and the number of the request, from 1: one that is repeated, because its answer was lost, gets the same jobs again.
+    /// Process and number of the request, from 1: one that is repeated, because its answer was lost, gets the same jobs again.
     pub request: RequestNumber,
-    /// True if the worker is another process, which lives on when the service ends.
+    /// True if the worker is another process, which continues when the service ends.
     pub is_remote: bool,
-    /// What it can take.
+    /// Free slots and memory of the worker.
     pub capacity: Capacity,
     /// Length of the leases.
     pub lease: Duration,
-    /// The token with which it is asked, which owns the leases; the worker itself does not say it.
+    /// Token that authenticates the request and owns the leases; not part of the worker's document.
     #[serde(skip)]
     pub token: Option<Uuid>,
 }
@@ -104,9 +104,9 @@ impl Claim {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ClaimedCheckpoint {
-    /// It comes with the claim.
+    /// Included in the claim.
     Given(EncodedCheckpoint),
-    /// It is in the store of objects, and is to be asked for.
+    /// In the store of objects, to be fetched by another request.
     Stored {
         /// Cycle.
         cycle: u64,
@@ -123,7 +123,7 @@ impl ClaimedCheckpoint {
     }
 }
 
-/// What a worker writes in one transaction.
+/// Progress and results that a worker writes in one transaction.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct JobUpdate {
     /// Number of the write under its lease, from 1 without gaps: one that is repeated, because its answer was lost, has no further effect, and
@@ -156,11 +156,11 @@ pub struct Write {
     pub lease: Lease,
     /// The update; its files were sent before.
     pub update: JobUpdate,
-    /// What is done beside it.
+    /// Renewal or end, in the same transaction.
     pub kind: WriteKind,
 }
 
-/// What is done beside an update.
+/// Effect of a write on the lease, besides its update.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum WriteKind {

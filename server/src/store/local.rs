@@ -1,4 +1,4 @@
-//! What this process has of a store besides the database: the folder of large results, the disk, the clock, counters and
+//! State of a store in this process, besides the database: the folder of large results, the disk, the clock, counters and
 //! subscribers.
 
 use std::path::{Path, PathBuf};
@@ -38,27 +38,27 @@ pub(in crate::store) fn log_lost_writes(lease: Lease, number: i64, last: i64) {
     tracing::warn!(%job, lease, number, last, "the database has lost writes of a worker, whose lease ends");
 }
 
-/// What this process has of a store.
+/// State of a store in this process, besides the database.
 #[derive(Debug)]
 pub(in crate::store) struct Local {
     pub(in crate::store) changes: broadcast::Sender<Uuid>,
     pub(in crate::store) waiting: Arc<Notify>,
-    /// To the processes that serve the same database.
+    /// Notifications to the other processes that serve the same database.
     pub(in crate::store) others: Option<mpsc::UnboundedSender<Notification>>,
     pub(in crate::store) folder: Folder,
-    /// Where results of succeeded jobs are moved to, and checkpoints are written.
+    /// Store of objects for results of succeeded jobs and for checkpoints.
     pub(in crate::store) objects: Option<Objects>,
-    /// Once they are known to be those of this database.
+    /// Set once the store of objects is known to be that of this database.
     pub(in crate::store) objects_checked: OnceCell<()>,
-    /// The last job whose results were to be moved there; nil at first, and after the last one of all.
+    /// The last job whose results were to be moved to objects; nil at first, and after the last job of all.
     pub(in crate::store) last_moved: Mutex<Uuid>,
-    /// Whether results were found whose files are in the folder of another service.
+    /// True once results were found whose files are in the folder of another service.
     pub(in crate::store) has_unseen_files: AtomicBool,
-    /// True if those that no job names are removed.
+    /// True if objects that no job names are removed.
     pub(in crate::store) removes_objects: bool,
-    /// Memory for files that are written there, MB.
+    /// Memory for files that are being written to objects, MB.
     pub(in crate::store) file_writes: Semaphore,
-    /// When a write failed there the last time.
+    /// Time of the last failed write to the store of objects.
     pub(in crate::store) objects_failed_at: Mutex<Option<Instant>>,
     /// The machine's calibration cache.
     pub(in crate::store) machine: PathBuf,
@@ -70,8 +70,8 @@ pub(in crate::store) struct Local {
 }
 
 impl Local {
-    /// Prepares it: its files are named after `files` and lie beside it; those of this machine are named after the machine, too, where
-    /// others have theirs at the same place.
+    /// Prepares the state. Its files are named after `files` and lie beside it; those of this machine also have its name where
+    /// other machines have theirs in the same folder.
     pub(in crate::store) fn prepare(
         files: &Path,
         machine: Option<&str>,
@@ -135,10 +135,10 @@ impl Local {
         self.notify(Notification::Changed(id));
     }
 
-    /// Tells the processes that serve the same database.
+    /// Notifies the other processes that serve the same database.
     fn notify(&self, notification: Notification) {
         if let Some(others) = &self.others {
-            // The task that tells them ends with the store.
+            // The task that notifies them ends with the store.
             let _ = others.send(notification);
         }
     }

@@ -10,11 +10,11 @@ use crate::queue;
 use crate::store::rows::timestamp;
 use crate::store::{NewJob, StoreError};
 
-/// What the row of a new job has beside what was asked for.
+/// Columns of a new job that are derived from its submission.
 pub(in crate::store) struct NewRow {
     pub(in crate::store) id: Uuid,
     pub(in crate::store) system: &'static str,
-    /// JSON, as are the plan and the progress.
+    /// Resolved specification, JSON as the plan and the progress.
     pub(in crate::store) spec: String,
     pub(in crate::store) plan: String,
     pub(in crate::store) progress: String,

@@ -25,7 +25,7 @@ use crate::store::{
 /// Jobs that are queued again in one transaction. Arbitrary: others wait for it.
 const RETRIED_AT_ONCE: u32 = 100;
 
-/// Transactions that cancel or delete jobs of a batch before others are attended to: a request waits for the end of a batch of a thousand jobs.
+/// Transactions that cancel or delete jobs of a batch in one call: a request waits for the end of a batch of a thousand jobs.
 const PORTIONS: usize = 10;
 
 /// Jobs, batches, events and results, durable.
@@ -41,7 +41,7 @@ pub(in crate::store) enum Engine {
     Postgres(Box<PostgresStore>),
 }
 
-/// Lets the store have an operation that each engine has. Boxed, so that what waits for it is not as large as that of both engines.
+/// Delegates an operation of the store to its engine. Futures are boxed, so that a caller's future does not contain both.
 macro_rules! operations {
     ($($(#[$doc:meta])* $visibility:vis async fn $name:ident(&self $(, $argument:ident: $type:ty)*) -> $result:ty;)*) => {
         impl $crate::store::Store {
@@ -69,7 +69,7 @@ impl Store {
         Self::open_by(url, files, limits, Clock::System).await
     }
 
-    /// Opens it with a clock by which leases are measured.
+    /// Opens the database with a clock by which leases are measured.
     ///
     /// # Errors
     /// [`StoreError`], as [`Store::open_with`].

@@ -73,7 +73,7 @@ pub(in crate::store) struct PostgresStore {
     /// When the database was last written by [`PostgresStore::ready`].
     last_probe: tokio::sync::Mutex<Option<Instant>>,
     compared: tokio::sync::Mutex<Option<Compared>>,
-    /// Tells and hears changes.
+    /// Tasks that send and receive notifications.
     tasks: [AbortOnDropHandle<()>; 2],
 }
 
@@ -108,13 +108,13 @@ async fn time_of(connection: &mut PgConnection) -> Result<Now, StoreError> {
     Ok(now.into())
 }
 
-/// Longest time that an operation may take: a server whose machine has vanished answers never.
+/// Longest time that an operation may take: a server whose machine has vanished never answers.
 const LONGEST: Duration = Duration::from_mins(1);
 
 /// Longest time that a transaction of several requests may take, for the same reason.
 const LONGEST_TURN: Duration = Duration::from_secs(40);
 
-/// Waits for an operation, but not for ever.
+/// Waits for an operation, up to a time limit.
 pub(in crate::store) async fn answered<T>(
     operation: impl Future<Output = Result<T, StoreError>>,
 ) -> Result<T, StoreError> {

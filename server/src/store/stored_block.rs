@@ -25,17 +25,17 @@ pub(in crate::store) struct StoredBlock {
 #[derive(Debug, Clone)]
 pub(in crate::store) struct StoredObject {
     pub(in crate::store) key: String,
-    /// How many bytes of it are the content.
+    /// Length of the content at the start of the object, bytes.
     content_bytes: u64,
 }
 
 impl StoredObject {
-    /// Key, and how many bytes of it are the content.
+    /// Key of the object, and length of the content at its start, bytes.
     pub(in crate::store) fn content(&self) -> (String, u64) {
         (self.key.clone(), self.content_bytes)
     }
 
-    /// What is behind the content.
+    /// Returns a part of the object by its range behind the content.
     ///
     /// # Errors
     /// [`StoreError::NoObjects`].
@@ -68,7 +68,7 @@ impl StoredBlock {
         }
     }
 
-    /// Decompresses it, with its content from the store of objects where it is there.
+    /// Decompresses the block; reads its content from the store of objects if it was moved there.
     pub(in crate::store) async fn decoded(
         self,
         id: Uuid,

@@ -1,4 +1,4 @@
-//! Writes of workers under their leases. What is large goes to the store of objects before, where there is one.
+//! Writes of workers under their leases. Large contents are written to the store of objects first, where there is one.
 
 use std::time::Duration;
 

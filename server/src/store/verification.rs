@@ -1,4 +1,4 @@
-//! Verification: every result that a database names is read and compared with its checksum. What is damaged is decided here, for both
+//! Verification: every result that a database names is read and compared with its checksum. The rules of damage are the same for both
 //! engines.
 
 use api::results::ResultFile;
@@ -23,7 +23,7 @@ const LARGE_AT_ONCE: usize = 2;
 /// Results that cannot be read, in successive jobs, after which the others are not tried.
 const MOST_UNREAD: usize = 100;
 
-/// What the results of a database are compared in.
+/// Verification of all results of a database against their checksums.
 #[derive(Debug)]
 pub(in crate::store) struct Verification<'a, D> {
     database: &'a D,
@@ -31,12 +31,12 @@ pub(in crate::store) struct Verification<'a, D> {
     objects: Option<&'a Objects>,
     is_copy: bool,
     large: Semaphore,
-    /// A file has one writer.
+    /// Serializes marks: a database file has one writer.
     marks: Mutex<()>,
 }
 
 impl<'a, D: Verified> Verification<'a, D> {
-    /// Of a database whose large results are in a folder.
+    /// Prepares the verification of a database whose large results are in a folder.
     ///
     /// # Errors
     /// [`BackupError`] if its objects are in another store.
@@ -87,7 +87,7 @@ impl<'a, D: Verified> Verification<'a, D> {
         Ok(all)
     }
 
-    /// Files before the block, into which they may be moved meanwhile.
+    /// Verifies a job: files before the block, into which they may be moved meanwhile.
     async fn job(&self, job: Uuid) -> Result<CopySummary, BackupError> {
         let mut verified = CopySummary {
             jobs: 1,
@@ -111,7 +111,7 @@ impl<'a, D: Verified> Verification<'a, D> {
         let what = format!("{} of job {job}", entry.name);
         let found = match self.check_file(job, file).await? {
             Found::Compared(None) => None,
-            // It may have been deleted or replaced meanwhile.
+            // The file may have been deleted or replaced meanwhile.
             _ if !self.is_named(job, file).await? => return Ok(()),
             Found::Compared(how) => how,
             Found::Missing(how) => Some(how),
@@ -141,7 +141,7 @@ impl<'a, D: Verified> Verification<'a, D> {
         if let Some(key) = &file.object {
             let objects = self.objects.ok_or(StoreError::NoObjects)?;
             return Ok(match object(objects, key, 0..entry.bytes, entry).await {
-                // The original has moved or removed it.
+                // The original has moved or removed the object.
                 Found::Missing(_) if self.is_copy => {
                     Found::Elsewhere("the original of this copy may have removed it".to_owned())
                 }
@@ -170,7 +170,7 @@ impl<'a, D: Verified> Verification<'a, D> {
         Ok(checked.into())
     }
 
-    /// Whether the database still names a file.
+    /// Checks whether the database still names a file.
     async fn is_named(&self, job: Uuid, file: &FileRow) -> Result<bool, BackupError> {
         let now = self.database.files(job, Some(&file.entry.name)).await?;
         Ok(now.iter().any(|now| now.is_same(file)))
@@ -222,7 +222,7 @@ impl<'a, D: Verified> Verification<'a, D> {
         Ok(())
     }
 
-    /// The documents of a block and the files behind it, and what was found of each; or what was found of all.
+    /// Documents of a block and files behind it, with the finding for each; or one finding for all of them.
     async fn checked(
         &self,
         stored: StoredBlock,
@@ -280,7 +280,7 @@ impl<'a, D: Verified> Verification<'a, D> {
                 Ok(state) => state,
                 Err(cause) => {
                     let is_missing = matches!(cause, ObjectsError::Missing(_));
-                    // It may have been replaced meanwhile, by the original if this is a copy.
+                    // The checkpoint may have been replaced meanwhile, by the original if this is a copy.
                     let now = self.database.checkpoint(job).await?;
                     let is_named = now.is_some_and(|now| now.object == row.object);
                     if is_named && !is_missing {

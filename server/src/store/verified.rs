@@ -43,10 +43,10 @@ pub(in crate::store) trait Verified {
     /// Ids of all jobs.
     async fn jobs(&self) -> Result<Vec<Uuid>, StoreError>;
 
-    /// The store of objects that it names.
+    /// Address of the store of objects that it names.
     async fn address_of_objects(&self) -> Result<Option<String>, StoreError>;
 
-    /// Whether its objects are those of its original.
+    /// Checks whether the database is a copy, whose objects are those of its original.
     async fn is_copy(&self) -> Result<bool, StoreError>;
 
     /// The block of a job.

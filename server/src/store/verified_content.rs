@@ -1,4 +1,4 @@
-//! Contents that are verified: what was found of one, in an object or elsewhere.
+//! Findings of a verification, for contents in objects and elsewhere.
 
 use std::ops::Range;
 
@@ -9,18 +9,18 @@ use crate::objects::{ObjectPart, Objects, ObjectsError};
 use crate::store::IntegrityError;
 use crate::store::integrity::Checksum;
 
-/// What was found of a content.
+/// Finding of the verification of a content.
 #[derive(Debug)]
 pub(in crate::store) enum Found {
-    /// It was compared with its checksum; how it is damaged.
+    /// Compared with its checksum; the damage, if any.
     Compared(Option<String>),
-    /// Object is missing.
+    /// The object is missing.
     Missing(String),
-    /// It was deleted or replaced meanwhile.
+    /// Deleted or replaced meanwhile.
     Gone,
-    /// It cannot be read at present.
+    /// Unreadable at present.
     Unread(String),
-    /// It is not here.
+    /// Stored elsewhere: in the folder of another machine, or by the original of a copy.
     Elsewhere(String),
 }
 
@@ -48,7 +48,7 @@ pub(in crate::store) async fn object(
     }
 }
 
-/// What the error of a request for the first bytes of an object says: a short object is damaged, whatever its store calls that.
+/// Finding after an error of a request for the first bytes of an object: a short object is damaged, whatever its store reports.
 pub(in crate::store) async fn failed(
     objects: &Objects,
     key: &str,
@@ -66,7 +66,7 @@ pub(in crate::store) async fn failed(
     }
 }
 
-/// Reads or compares much without keeping others waiting.
+/// Runs a long check on a thread for blocking operations.
 pub(in crate::store) async fn in_background(
     check: impl FnOnce() -> Result<(), IntegrityError> + Send + 'static,
 ) -> Result<(), IntegrityError> {

@@ -1,4 +1,4 @@
-//! Remote workers in the store: who is there, and who shall take no more jobs.
+//! Remote workers in the store: those in contact with a service, and those that are drained.
 
 use std::time::Duration;
 
@@ -16,15 +16,15 @@ const REMEMBERED: Duration = Duration::from_hours(24);
 pub struct WorkerContact {
     /// The process.
     pub id: Uuid,
-    /// What it said of itself at its last claim; `None` if it has made none at this service.
+    /// Offer of the process at its last claim; `None` if it has made none at this service.
     pub offer: Option<WorkerOffer>,
-    /// Why it starts no solves at present, as it said at its last heartbeat.
+    /// Reason why it starts no solves at present, from its last heartbeat.
     pub failing: Option<String>,
-    /// How long ago.
+    /// Time since the contact.
     pub ago: Duration,
 }
 
-/// What a process offers.
+/// Machine and capacity of a remote process.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct WorkerOffer {
     /// Name of its machine.

@@ -130,7 +130,7 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn expansions(&self) -> Result<Vec<Expansion>, StoreError>;
 
-    /// Returns what the jobs of a batch are made from; `None` if none are to be queued.
+    /// Returns the request that the jobs of a batch are generated from; `None` if none are to be queued.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.

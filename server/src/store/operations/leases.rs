@@ -49,7 +49,7 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn renew(&self, lease: impl Into<Lease>, length: Duration) -> Result<LeaseState, StoreError>;
 
-    /// Whether the worker holds the job; writes nothing.
+    /// Returns the state of a lease; writes nothing.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.

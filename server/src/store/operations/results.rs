@@ -34,22 +34,22 @@ operations! {
     /// Address of the store of objects that results were moved to; `None` if none were.
     pub(in crate::store) async fn address_of_objects(&self) -> Result<Option<String>, StoreError>;
 
-    /// Notes it.
+    /// Notes the address of the store of objects.
     pub(in crate::store) async fn note_address_of_objects(&self, address: &str) -> Result<(), StoreError>;
 
-    /// Whether objects that no job names any more are removed: not by a copy of a database, whose original names them, too.
+    /// Checks whether objects that no job names are removed: not by a copy of a database, whose original names them, too.
     pub(in crate::store) async fn removes_objects(&self) -> Result<bool, StoreError>;
 
-    /// Whether the store of objects at an address has got its mark.
+    /// Checks whether the store of objects at an address has got its mark.
     pub(in crate::store) async fn are_objects_marked(&self, address: &str) -> Result<bool, StoreError>;
 
-    /// Notes that it has; false if the database has another address meanwhile.
+    /// Notes that the store of objects has its mark; false if the database has another address meanwhile.
     pub(in crate::store) async fn note_mark_of_objects(&self, address: &str) -> Result<bool, StoreError>;
 
     /// Key of an object with the results of a job.
     pub(in crate::store) async fn any_object(&self) -> Result<Option<String>, StoreError>;
 
-    /// Whether it is this process that moves results.
+    /// Checks whether this process is the one that moves results.
     pub(in crate::store) async fn moves_results(&self) -> Result<bool, StoreError>;
 
     /// Succeeded jobs whose results are not in objects: the first ones after an id.

@@ -17,7 +17,7 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn last_revision(&self) -> Result<i64, StoreError>;
 
-    /// Whether all changes after a revision are known.
+    /// Checks whether all changes after a revision are known.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
@@ -29,13 +29,13 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn changed_after(&self, revision: i64) -> Result<Vec<(i64, Changed)>, StoreError>;
 
-    /// Returns what waits and runs.
+    /// Returns the demand for workers: waiting and running jobs.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
     pub async fn demand(&self) -> Result<Demand, StoreError>;
 
-    /// Returns what the store knows: jobs by status, ages, sizes.
+    /// Returns the gauges of the store: jobs by status, ages, sizes.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.
@@ -110,7 +110,7 @@ operations! {
     /// [`StoreError`] if the database fails.
     pub async fn delete_older(&self, age: Duration) -> Result<usize, StoreError>;
 
-    /// Counts the free pages of the database as free space, and gives some of them back to the file system if the database can.
+    /// Counts the free pages of the database as free space, and returns some of them to the file system if the database can.
     ///
     /// # Errors
     /// [`StoreError`] if the database fails.

@@ -98,7 +98,7 @@ async fn name(connection: &mut PgConnection, key: &str) -> Result<bool, StoreErr
     if noted.rows_affected() > 0 {
         return Ok(true);
     }
-    // It may have been written after its removal.
+    // The object may have been written after its removal.
     sqlx::query("INSERT INTO unnamed_objects (key) VALUES ($1) ON CONFLICT DO NOTHING")
         .bind(key)
         .execute(connection)

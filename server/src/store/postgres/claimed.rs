@@ -4,7 +4,7 @@ use uuid::Uuid;
 
 use crate::store::Claim;
 
-/// What a request has got.
+/// Jobs that a request has claimed.
 #[derive(Debug)]
 pub(super) struct Claimed {
     pub(super) claims: Vec<Claim>,

@@ -21,8 +21,8 @@ use crate::store::{Claim, ClaimRequest, ClaimedCheckpoint, Lease, StoreError};
 const CANDIDATES: usize = 64;
 /// Key of the lock of the process that claims: `frtc` in ASCII.
 const TURN: i64 = 0x6672_7463;
-/// Lets, or does not let, PostgreSQL read and sort all jobs instead of the first in the order of an index: it would for each claim, by statistics of
-/// a time when few jobs waited.
+/// Allows or forbids PostgreSQL to sort all jobs instead of reading the first ones from an index. With statistics of a time when few jobs
+/// waited, it would sort them for each claim.
 pub(in crate::store) const LET_SORT: &str = "SELECT set_config('enable_bitmapscan', $1, true), \
     set_config('enable_seqscan', $1, true), set_config('enable_sort', $1, true)";
 /// The first queued jobs. They are not locked: most are not claimed.
@@ -81,7 +81,7 @@ fn position(requests: &[ClaimRequest], request: &ClaimRequest) -> Option<usize> 
         .position(|other| other.request == request.request && other.token == request.token)
 }
 
-/// Requests, what each has claimed, and the jobs that were given another reason to wait.
+/// Requests, the claims of each, and the jobs that were given another reason to wait.
 type Answers = (Vec<ClaimRequest>, Vec<Vec<Claim>>, Vec<Uuid>);
 
 /// Claims jobs for each request that is still waited for.
@@ -93,7 +93,7 @@ async fn claim_for(
     let mut transaction = begin(pool, None).await?;
     let now = turn(&mut transaction).await?;
     let now = given.unwrap_or(now);
-    // What is claimed for a worker that has gone would wait for the end of its lease.
+    // A job claimed for a worker that has disconnected would wait for the end of its lease.
     group.retain(|pending| !pending.is_given_up());
     // A request may be repeated before the first one is answered.
     let mut requests: Vec<ClaimRequest> = Vec::with_capacity(group.len());

@@ -22,11 +22,11 @@ struct Durability {
     has_standbys: bool,
 }
 
-/// Warns of what the server at `connection` can lose.
+/// Warns of settings with which the server at `connection` can lose acknowledged writes.
 pub(super) async fn warn(connection: &mut PgConnection) {
     let risks = match durability(connection).await {
         Ok(found) => found.risks(),
-        // What a role may not read keeps no service from starting.
+        // A service also starts with a role that may not read the settings.
         Err(error) => return tracing::debug!(%error, "settings of the database are unknown"),
     };
     for risk in risks {
@@ -54,7 +54,7 @@ async fn durability(connection: &mut PgConnection) -> Result<Durability, sqlx::E
 }
 
 impl Durability {
-    /// What is lost, and when.
+    /// Risks of data loss, with their causes.
     fn risks(self) -> Vec<&'static str> {
         let risks = [
             (

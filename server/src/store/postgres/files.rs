@@ -178,16 +178,16 @@ impl PostgresStore {
     }
 }
 
-/// What was sent under a key.
+/// Place of a file that was sent under a key.
 #[derive(Debug, Clone, Copy)]
 enum Sent {
-    /// It is in the object.
+    /// In the object.
     Object,
-    /// It could not be written there: the note has it.
+    /// In the note, because the object could not be written.
     Content,
 }
 
-/// Finds out what was sent of a job's file, and locks its note. `None` if nothing is known of it, or if it is being removed.
+/// Locks the note of a job's file and returns the place of the file; `None` without a note, or if the object is being removed.
 async fn sent(
     connection: &mut PgConnection,
     job: Uuid,
@@ -212,7 +212,8 @@ async fn sent(
     Ok(has_content.map(sent))
 }
 
-/// Removes the note of what has got a name. Where it had the content, there may be an object or a part of one, too, which is removed later.
+/// Removes the note of a file that the manifest names. A note with the content loses that only: an object may exist, too, at least in
+/// part, and is removed later.
 async fn forget(connection: &mut PgConnection, key: &str, sent: Sent) -> Result<(), StoreError> {
     let statement = match sent {
         Sent::Object => "DELETE FROM unnamed_objects WHERE key = $1",

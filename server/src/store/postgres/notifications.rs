@@ -1,6 +1,6 @@
-//! Changes that the processes which serve a database tell each other. Not in the transactions that make them: a notification in a
-//! transaction holds a lock through its commit, so that commits would follow each other. What is missed while nobody listens is made up
-//! for: after each connection all jobs may have changed, and any may wait.
+//! Notifications of changes between the processes that serve a database. They are not sent in the transactions that make the changes: a
+//! notification in a transaction holds a lock through its commit, so that commits would follow each other. Notifications can be missed
+//! while nobody listens: after each connection all jobs are taken for changed, and the queue for not empty.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -17,16 +17,16 @@ use crate::store::changes::ANY_JOB;
 use crate::store::local::Notification;
 
 const CHANNEL: &str = "fretwear_changes";
-/// Time in which changes come together.
+/// Interval in which changes are collected into notifications.
 const INTERVAL: Duration = Duration::from_millis(100);
 /// Changes in a notification: its text has at most 8 000 bytes, an id 37.
 const MOST: usize = 200;
-/// What stands for jobs that wait.
+/// Text that stands for waiting jobs.
 const WAITING: &str = "waiting";
 /// Time before another connection is tried.
 const PAUSE: Duration = Duration::from_secs(1);
 
-/// Tells the changes of this process until the store is closed.
+/// Sends the changes of this process until the store is closed.
 pub(super) async fn notify(
     pool: PgPool,
     process: Uuid,
@@ -52,7 +52,7 @@ pub(super) async fn notify(
     }
 }
 
-/// Hears the changes of other processes until the store is closed.
+/// Receives the changes of other processes until the store is closed.
 pub(super) async fn hear(
     pool: PgPool,
     process: Uuid,
@@ -99,7 +99,7 @@ async fn listen(
     }
 }
 
-/// Lets everybody look who waits for a change.
+/// Notifies all subscribers and idle workers, because any job may have changed.
 fn missed(changes: &broadcast::Sender<Uuid>, waiting: &Notify) {
     // Without a subscriber this is not an error.
     let _ = changes.send(ANY_JOB);

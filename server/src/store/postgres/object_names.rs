@@ -25,7 +25,7 @@ impl PostgresStore {
         for results in moved {
             match self.name_together(std::slice::from_ref(results)).await {
                 Ok(alone) => named.extend(alone),
-                // What is named stays so; the others are moved another time.
+                // Results that were named so far stay moved; the others follow in a later call.
                 Err(error) if !named.is_empty() => {
                     tracing::warn!(%error, "results of a job were not moved");
                     return Ok(named);

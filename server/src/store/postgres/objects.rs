@@ -178,8 +178,8 @@ impl PostgresStore {
     }
 }
 
-/// What a database has that its copies do not: the server that it was made on, where its role may read that, and its number there. A standby
-/// that is promoted keeps both.
+/// Identity of a database that its copies do not share: the server that it was made on, where its role may read that, and its number
+/// there. A standby that is promoted has the same.
 pub(super) async fn identity(connection: &mut PgConnection) -> Result<String, StoreError> {
     let (number, may_read): (String, bool) = sqlx::query_as(
         "SELECT oid::text, has_function_privilege('pg_catalog.pg_control_system()', 'EXECUTE') \

@@ -22,7 +22,7 @@ use crate::store::postgres::migrations::{migrator, newest_version};
 use crate::store::postgres::notifications::{hear, notify};
 use crate::store::{BackupError, Lease, Limits, StoreError};
 
-/// Number of connections for claims and writes, among them one that tells changes.
+/// Number of connections for claims and writes, among them one that sends notifications.
 const WRITERS: u32 = 9;
 /// Number of connections for reads.
 const READERS: u32 = 5;

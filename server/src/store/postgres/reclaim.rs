@@ -18,12 +18,12 @@ use crate::store::{Lease, Reclaimed, StoreError};
 const REASON: &str = "its worker was lost";
 
 impl PostgresStore {
-    /// Of the processes that serve the database, one reclaims a job.
+    /// Reclaims jobs whose lease has ended; each job is reclaimed by one of the processes that serve the database.
     pub(in crate::store) async fn reclaim_expired(
         &self,
         length: Duration,
     ) -> Result<Reclaimed, StoreError> {
-        // What has ended while this waits for the database is left to the next time: a worker may be waiting, too, to renew it.
+        // Leases that end while this waits for the database are left to the next call: their workers may be waiting to renew them.
         let asked = Instant::now();
         let (mut transaction, now) = self.begin().await?;
         if !self.is_steady(now).await {
@@ -78,7 +78,7 @@ impl PostgresStore {
         })
     }
 
-    /// Returns `true` if the clock of the database has gone as that of this process.
+    /// Returns `true` if the clock of the database has made no recent step against that of this process.
     async fn is_steady(&self, now: Now) -> bool {
         if self.given_now().is_some() {
             return true;

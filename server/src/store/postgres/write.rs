@@ -10,10 +10,10 @@ use crate::store::Write;
 /// Small writes that wait for a transaction; none of one that is to be written alone.
 pub(super) type Writes = Groups<Arc<Write>, Option<Written>>;
 
-/// One of them.
+/// A waiting write.
 pub(super) type Waiting = Pending<Arc<Write>, Option<Written>>;
 
-/// What a write has led to, itself or an earlier one.
+/// Effect of a write, or of an earlier one of the same number.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Written {
     pub(super) effect: Effect,
@@ -21,7 +21,7 @@ pub(super) struct Written {
     pub(super) is_repeated: bool,
 }
 
-/// What a write has led to.
+/// State of the job or of the lease after a write.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Effect {
     /// The job is held.
@@ -31,12 +31,12 @@ pub(super) enum Effect {
     },
     /// The job has ended, or waits again; `None` if its transition is not allowed.
     Ended(Option<Status>),
-    /// None: the lease was lost.
+    /// The lease was lost; the write was discarded.
     Lost,
 }
 
 impl Written {
-    /// Without effect.
+    /// A write without effect.
     pub(super) const LOST: Self = Self::repeated(Effect::Lost);
 
     pub(super) const fn repeated(effect: Effect) -> Self {

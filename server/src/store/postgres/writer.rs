@@ -14,12 +14,12 @@ use crate::store::postgres::updates::{Renewal, insert_results, renew};
 use crate::store::postgres::write::{Effect, Written};
 use crate::store::{StoreError, Write, WriteKind};
 
-/// What is done about a row that another transaction has locked.
+/// Policy for rows that another transaction has locked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Locked {
-    /// It is waited for.
+    /// Waits for the row.
     Wait,
-    /// Job is left out.
+    /// Skips the job.
     Skip,
 }
 
@@ -74,7 +74,7 @@ impl Writer {
         Ok(written)
     }
 
-    /// Writes to jobs whose rows are locked; what each write leads to.
+    /// Writes to jobs whose rows are locked; returns the effect of each write.
     async fn write_held(
         &self,
         connection: &mut PgConnection,

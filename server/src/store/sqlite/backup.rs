@@ -64,7 +64,7 @@ pub(in crate::store) async fn copy_database(
         .fetch_one(&mut database)
         .await?;
     if vacuum == 0 {
-        // It changes the copy alone, which gives free pages back.
+        // Applies to the copy alone, which can then release free pages.
         sqlx::query("PRAGMA auto_vacuum = INCREMENTAL")
             .execute(&mut database)
             .await?;
@@ -117,7 +117,7 @@ async fn still_named(
     Ok((damaged, deleted))
 }
 
-/// Completes a copy: marks the damaged files, removes the owner, and ends the leases; returns what to say of each file.
+/// Completes a copy: marks the damaged files, removes the owner, and ends the leases; returns a message about each damaged file.
 async fn complete(database: &Path, damaged: Vec<Damage>) -> Result<Vec<String>, BackupError> {
     let mut connection = at(database).connect().await?;
     let (has_marks, mut said) = (has_marks(&mut connection).await?, Vec::new());
@@ -210,7 +210,7 @@ pub async fn restore(from: &Path, url: &str) -> Result<CopySummary, BackupError>
     let _lock = lock(&target)?;
     let copied = copy_backup(&source, &target).await;
     if copied.is_err() {
-        // What cannot be removed is named by no database, and prevents the next restore to this place.
+        // Files that cannot be removed are named by no database, but prevent the next restore to this place.
         for log in ["", "-wal", "-shm", "-journal"] {
             let _ = std::fs::remove_file(beside(&target, &format!("{PARTIAL}{log}")));
         }
@@ -236,7 +236,7 @@ async fn copy_backup(source: &Path, target: &Path) -> Result<CopySummary, Backup
     }
     let partial = beside(target, PARTIAL);
     std::fs::copy(source, &partial).map_err(|cause| file(&partial, cause))?;
-    // A backup of an earlier version has leases, and the workers may have gone on since.
+    // A backup of an earlier version has leases, and its workers may have continued since.
     let mut connection = at(&partial).connect().await?;
     end_leases(&mut connection).await?;
     connection.close().await?;

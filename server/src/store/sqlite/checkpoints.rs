@@ -107,7 +107,7 @@ async fn name(transaction: &mut Transaction<'_, Sqlite>, key: &str) -> Result<bo
     if noted.rows_affected() > 0 {
         return Ok(true);
     }
-    // It may have been written after its removal.
+    // The object may have been written after its removal.
     sqlx::query("INSERT OR IGNORE INTO unnamed_objects (key) VALUES (?)")
         .bind(key)
         .execute(&mut **transaction)

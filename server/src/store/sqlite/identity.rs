@@ -1,5 +1,5 @@
-//! What a file is before it is opened for writing: a database of this program, of an earlier or a later version of it, or
-//! of another program.
+//! Identification of a file before it is opened for writing: a database of this program, of an earlier or a later version
+//! of it, or of another program.
 
 use std::os::unix::fs::MetadataExt;
 use std::path::Path;
@@ -61,7 +61,7 @@ pub(super) async fn schema_version(path: &Path) -> Result<Option<i64>, StoreErro
 enum Schema {
     Empty,
     Version(i64),
-    /// Of another program, with what it was known by.
+    /// A file of another program, with the evidence.
     Foreign(String),
 }
 

@@ -7,7 +7,7 @@ use sqlx::{Connection, SqliteConnection};
 use crate::store::BackupError;
 use crate::store::sqlite::objects::REMOVALS;
 
-/// What a copy takes over of a job (`?1`) from its original.
+/// Statements that copy the moved results of a job (`?1`) from the original.
 const TAKEN: [&str; 2] = [
     "INSERT OR REPLACE INTO result_blocks SELECT * FROM original.result_blocks WHERE job_id = ?1",
     "UPDATE jobs SET (spec, plan) = (SELECT spec, plan FROM original.jobs AS moved WHERE moved.id = ?1) WHERE id = ?1",

@@ -1,4 +1,4 @@
-//! Statements about objects: their keys, and what leaves the database when an object has it.
+//! Statements about objects: their keys, and the removal of rows that an object replaces.
 
 use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
@@ -11,7 +11,7 @@ use crate::store::results_to_move::Moved;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::queries::BEGIN;
 
-/// What leaves the database once a job (`?1`) has an object, beside the content of its block.
+/// Statements that delete the rows of a job (`?1`) that its object replaces, beside the content of its block.
 pub(super) const REMOVALS: [&str; 2] = [
     "DELETE FROM result_files WHERE job_id = ?1 AND place IS NOT NULL",
     "DELETE FROM events WHERE job_id = ?1 AND seq < (SELECT last_event FROM jobs WHERE id = ?1)",
@@ -37,7 +37,7 @@ impl SqliteStore {
         .bind(address)
         .execute(&mut *transaction)
         .await?;
-        // What an earlier process was writing is not written any more.
+        // An earlier process has ended: no object that it noted is still being written.
         sqlx::query("UPDATE unnamed_objects SET noted_at = 0")
             .execute(&mut *transaction)
             .await?;

@@ -18,7 +18,7 @@ use crate::store::sqlite::queries::BEGIN;
 
 /// Interval between two heartbeats; each is a small write.
 pub const OWNER_HEARTBEAT: Duration = Duration::from_secs(5);
-/// Longest wait for one, and the interval between two looks.
+/// Longest wait for a heartbeat, and the interval between two queries.
 const LONGEST_WAIT: Duration = Duration::from_secs(16);
 const LOOK_AGAIN: Duration = Duration::from_millis(200);
 
@@ -90,12 +90,12 @@ pub(super) async fn become_owner(
     Ok(id)
 }
 
-/// What the last process stored about its clock: the step that it had found until its last heartbeat, ms; and where known, its
+/// Stored clock of the last process: the step that it had found until its last heartbeat, ms; and where known, its
 /// origin, as the start of the system and the offset since it, ms.
 type LastClock = (i64, Option<String>, Option<i64>);
 
-/// How far times that the last process measured have to be moved to be those of this one, ms: by what the clocks themselves tell
-/// if the system was not started since, or else by what that process had found.
+/// Offset from times that the last process measured to those of this one, ms: from the origins of both clocks if the system
+/// was not restarted since, or else the step that the last process had found.
 fn step_ms(last: LastClock, own: Option<&Origin>) -> i64 {
     match (last, own) {
         ((_, Some(boot), Some(offset_ms)), Some(own)) if boot == own.boot => {
@@ -105,7 +105,7 @@ fn step_ms(last: LastClock, own: Option<&Origin>) -> i64 {
     }
 }
 
-/// Moves what the last process measured by its monotonic clock to that of this one.
+/// Converts times on the monotonic clock of the last process to that of this one.
 async fn move_times(transaction: &mut Transaction<'_, Sqlite>) -> Result<(), StoreError> {
     let last: Option<LastClock> =
         sqlx::query_as("DELETE FROM clock RETURNING stepped_ms, boot, offset_ms")
@@ -186,7 +186,7 @@ impl SqliteStore {
         Ok(())
     }
 
-    /// Gives the database up.
+    /// Removes this process as the owner of the database.
     pub(super) async fn disown(&self) {
         // If it fails, steps of the last seconds move deadlines, and only if the system is started again.
         let _ = self.store_step(Now::read().stepped_ms()).await;
@@ -198,8 +198,8 @@ impl SqliteStore {
     }
 }
 
-/// This process: what its numbers refer to (start of the system, namespace of process ids), its number, and its start. Empty
-/// where the system does not tell.
+/// This process: its namespace (start of the system, namespace of process ids), its number, and its start. Empty where the
+/// system does not report them.
 fn this_process() -> String {
     let pid = std::process::id();
     let parts = || Some(format!("{} pid {pid} {}", namespace()?, started(pid)?));
@@ -220,7 +220,7 @@ fn has_ended(process: &str) -> bool {
     is_visible && (pid == std::process::id() || started(pid).is_none_or(|found| found != start))
 }
 
-/// What process numbers refer to.
+/// Scope in which process numbers are unique: start of the system and namespace of process ids.
 fn namespace() -> Option<String> {
     let boot = boot()?;
     let space = std::fs::read_link("/proc/self/ns/pid").ok()?;

@@ -8,9 +8,9 @@ use crate::store::StoreError;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::open::{BUSY_TIMEOUT, LARGEST_WAL};
 
-/// Free pages that are not given back, because the next writes need some.
+/// Free pages that are not released, because the next writes need some.
 const KEPT_PAGES: u64 = 1024;
-/// Pages that are given back at once, each with a copy of another page at most; bounds how long other writes wait.
+/// Pages that are released at once, each with a copy of another page at most; bounds how long other writes wait.
 const PAGES_AT_ONCE: u64 = 2048;
 
 impl SqliteStore {
@@ -62,7 +62,7 @@ impl SqliteStore {
     }
 }
 
-/// Checkpoints the write-ahead log; whether others kept it from the end, pages in the log, and those that are in the database.
+/// Checkpoints the write-ahead log; returns whether others prevented its end, the pages in the log, and those in the database.
 async fn checkpoint(
     writer: &mut SqliteConnection,
     mode: &str,

@@ -21,7 +21,7 @@ pub(super) async fn end_job(
         return Ok(None);
     };
     let status = ending.status;
-    // What is not measured any more is shown by the system's clock.
+    // The times of an ended job are stored by the system's clock, no longer by the monotonic one.
     let step_ms = if status.is_terminal() {
         Now::read().stepped_ms()
     } else {

@@ -255,7 +255,7 @@ async fn a_large_batch_is_cancelled_and_deleted_in_several_transactions(fixture:
     assert_eq!(stored.overview.asked, None);
     let noted = store.note_deletion(batch).await.expect("the store");
     assert_eq!(noted, Deleted::Done);
-    // It is not shown any more, although its jobs are still there; a second request finds none.
+    // The batch is hidden, although its jobs still exist; a second request finds none.
     assert!(!store.has_batch(batch, false).await.expect("the store"));
     let filter = BatchFilter {
         with_plan: false,

@@ -53,7 +53,7 @@ impl WithObjects {
         self.store.queue(&job).await
     }
 
-    /// A job whose worker has written a checkpoint and given it back, under its next lease.
+    /// A job whose worker has written a checkpoint and released it, under its next lease.
     pub(super) async fn resumed(&self, checkpoint: EncodedCheckpoint) -> Claim {
         let claim = self.running().await;
         let update = update_with(checkpoint);
@@ -61,7 +61,7 @@ impl WithObjects {
         self.released(&claim).await
     }
 
-    /// A job that was given back, under its next lease.
+    /// A job that was released, under its next lease.
     pub(super) async fn released(&self, claim: &Claim) -> Claim {
         let release = end(Transition::Release);
         let last = JobUpdate::default();
@@ -125,7 +125,7 @@ async fn the_object_of_a_checkpoint_is_removed_once_nothing_names_it(database: W
     let deleted = store.delete(claim.id).await.expect("the store");
     assert_eq!(deleted, Deleted::Done);
     database.moved().await;
-    // That of the repeated update may still be written.
+    // The object of the repeated update may still be written.
     assert_eq!(database.objects().len(), 1);
 }
 

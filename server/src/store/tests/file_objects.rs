@@ -146,7 +146,7 @@ async fn an_object_of_another_job_or_attempt_is_no_file(database: WithObjects) {
             "{key}: {refused:?}"
         );
     }
-    // What a lost attempt has sent has no effect.
+    // Files that a lost attempt has sent have no effect.
     let key = database.sent(&claim, b"fields").await;
     let fresh = database.released(&claim).await;
     let late = store
@@ -159,7 +159,7 @@ async fn an_object_of_another_job_or_attempt_is_no_file(database: WithObjects) {
 }
 
 async fn a_file_is_in_the_database_while_the_store_of_objects_fails(database: WithObjects) {
-    // It is known by its mark.
+    // The store of objects is known by its mark.
     let other = database.running().await;
     database.sent(&other, b"of another job").await;
     let objects = database.place.folder.path().join("objects");

@@ -144,7 +144,7 @@ async fn an_update_that_names_a_missing_file_is_refused(fixture: Fixture) {
     let ended = store.end(&claim, &update, &end(Transition::Succeed)).await;
     assert!(matches!(ended, Err(StoreError::NoFile { .. })), "{ended:?}");
     assert_eq!(store.manifest(id).await.expect("the store"), []);
-    // It is sent again.
+    // The file is sent again.
     std::fs::write(&path, b"fields").expect("written");
     let recorded = store.record(&claim, &update, LENGTH).await;
     assert_ne!(recorded.expect("the store"), LeaseState::Lost);

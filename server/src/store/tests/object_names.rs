@@ -38,7 +38,7 @@ async fn an_earlier_store_is_marked_if_it_has_the_objects(database: WithObjects)
     database.ended(Transition::Succeed).await;
     let folder = database.place.folder.path().join("objects");
     let address = format!("file://{}", folder.display());
-    // Its mark is forgotten with its address.
+    // A change of the address discards the note of the mark.
     for address in ["file:///other", &address] {
         let noted = database.store.note_address_of_objects(address).await;
         noted.expect("the store");

@@ -25,13 +25,13 @@ impl WithObjects {
         verify(&self.place.url, &self.place.files(), objects).await
     }
 
-    /// What is found with its store of objects.
+    /// Verifies the database with its store of objects.
     async fn found(&self) -> CopySummary {
         let verified = self.verified(Some(&self.objects_at("objects"))).await;
         verified.expect("verified")
     }
 
-    /// What is damaged; all is read.
+    /// Damaged results, after a check that all could be read.
     async fn damaged(&self) -> Vec<String> {
         let found = self.found().await;
         assert_eq!(found.unread, Vec::<String>::new());
@@ -135,7 +135,7 @@ async fn a_short_object_is_damaged(database: WithObjects) {
     let is_of_job = |object: &&PathBuf| object.display().to_string().contains(&of_job);
     let object = objects.iter().find(is_of_job).expect("an object");
     let length = std::fs::metadata(object).expect("a file").len();
-    // Its last file is the shortest part, and its content the first.
+    // The last file of the object is its shortest part, and the content of the block its first.
     let file = b"fields".len() as u64;
     for (left, of) in [
         (length - 1, "a.vtu of job"),

@@ -1,4 +1,4 @@
-//! Remote workers: who is there, and who takes no more jobs.
+//! Remote workers: those in contact with a service, and those that are drained.
 
 use super::*;
 
@@ -39,7 +39,7 @@ async fn the_latest_contact_counts_and_a_silent_worker_is_forgotten(fixture: Fix
     fixture
         .noted(&[contact(first, 100, 5), contact(second, 200, 50)])
         .await;
-    // Another service has heard of it before, and one hears its heartbeats only.
+    // Another service had an earlier contact with the first worker, and one receives heartbeats only.
     fixture.noted(&[contact(first, 300, 9)]).await;
     let beat = |id| WorkerContact {
         id,
@@ -131,7 +131,7 @@ async fn a_job_that_a_worker_has_given_up_is_left_to_another_one_for_a_while(fix
         let claims = fixture.store.claim(&asks(worker)).await;
         claims.expect("the store").pop()
     };
-    // Transition, who is there, time until the next claim, whether the job is left to the other one.
+    // Transition, workers in contact, time until the next claim, whether the job is left to the other one.
     let cases = [
         (Transition::Decline, vec![&here, &able], 0, true),
         (Transition::Decline, vec![&able], 29_000, true),

@@ -57,7 +57,7 @@ async fn writes_that_meet_are_whole(fixture: Fixture) {
     let mut ending = JoinSet::new();
     for (number, claim) in claims.iter().enumerate() {
         let (store, claim) = (Arc::clone(&fixture.store), claim.clone());
-        // Some are given back.
+        // Some jobs are released.
         let transition = match number % 3 {
             0 => Transition::Release,
             _ => Transition::Succeed,
