@@ -59,6 +59,15 @@ pub async fn damage_checkpoints(folder: &Path) -> u64 {
     .await
 }
 
+/// Lets the time pass after which objects that no update has named are removed; returns their number.
+///
+/// # Panics
+/// If the database cannot be written.
+pub async fn age_unnamed_objects(folder: &Path) -> u64 {
+    let statement = "UPDATE unnamed_objects SET noted_at = 0";
+    execute(folder, statement, statement).await
+}
+
 /// Overwrites the small results of all jobs that have ended; returns their number.
 ///
 /// # Panics

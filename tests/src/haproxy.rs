@@ -14,8 +14,10 @@ use crate::postgres::PostgresServer;
 const TRIES: usize = 10;
 /// Time in which it says that its configuration is at fault, or that its address is taken.
 const START: Duration = Duration::from_millis(300);
+/// A check may take as long as a busy machine needs; a server that was killed refuses it at once.
 const DEFAULTS: &str = "defaults
   timeout connect 1s
+  timeout check 5s
   timeout client 1h
   timeout server 1h
   default-server inter 200ms fall 2 rise 1 on-marked-down shutdown-sessions
