@@ -117,8 +117,8 @@ impl Kind {
 }
 
 impl Request {
-    /// Returns the jobs to be queued: all of them, accepted, or none; of a large sweep, the first of them and what the others are
-    /// made from.
+    /// Returns the jobs to be queued: all of them, accepted, or none; of a large sweep, the first of them and the request for the
+    /// others.
     ///
     /// # Errors
     /// [`ExpandError`] with the faults of the request, or of the jobs it would make.
@@ -158,7 +158,7 @@ impl Request {
     }
 }
 
-/// Returns what a sweep is expected to take, by some of its jobs.
+/// Returns the estimate of a sweep, by some of its jobs.
 ///
 /// # Errors
 /// [`Refused`] if it cannot be read, is too large, or has faults in these jobs.
@@ -180,7 +180,7 @@ pub fn rows(jobs: &[BatchJob]) -> Result<Vec<u8>, EvaluateError> {
     sweep::table::rows(jobs)
 }
 
-/// What the jobs of a batch that are queued later are made from.
+/// Request that the jobs of a batch that are queued later are generated from.
 #[derive(Debug)]
 pub struct Expandable {
     batch: Uuid,
@@ -188,7 +188,7 @@ pub struct Expandable {
 }
 
 impl Expandable {
-    /// Reads what a batch has stored.
+    /// Reads the request that a batch has stored.
     ///
     /// # Errors
     /// [`ExpandError`] if it cannot be read.

@@ -58,7 +58,7 @@ impl Client {
     pub fn new(server: &str, token: Option<&str>, ca: Option<&Path>) -> Result<Self, ClientError> {
         Self::with_trust(server, token, |http, url| match ca {
             Some(path) => Ok(http.tls_certs_only(authorities(path)?)),
-            // Those of the system are not needed, and a system without any would be an error.
+            // Plain HTTP needs no authorities, and a system without any would be an error.
             None if url.scheme() == "http" => Ok(http.tls_certs_only([])),
             None => Ok(http),
         })
@@ -142,7 +142,7 @@ impl Client {
             .await
     }
 
-    /// Returns what waits and runs; asks once, with a token for workers.
+    /// Returns the demand for workers; sends one request, with a token for workers.
     ///
     /// # Errors
     /// [`ClientError`].
@@ -150,7 +150,7 @@ impl Client {
         self.get_once("/v1/worker/demand").await
     }
 
-    /// Gets a document; asks once.
+    /// Gets a document; sends one request.
     ///
     /// # Errors
     /// [`ClientError`].
@@ -246,7 +246,7 @@ impl Client {
         self.parsed(path, &bytes)
     }
 
-    /// Parses what a path has answered.
+    /// Parses the response of a path.
     fn parsed<T: DeserializeOwned>(&self, path: &str, json: &[u8]) -> Result<T, ClientError> {
         serde_json::from_slice(json).map_err(|cause| ClientError::Answer {
             url: self.url(path),

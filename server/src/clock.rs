@@ -108,7 +108,7 @@ pub fn monotonic_ms() -> i64 {
     start.saturating_add(i64::try_from(since.elapsed().as_millis()).unwrap_or(i64::MAX))
 }
 
-/// What the monotonic clock of this process counts from.
+/// Origin of the monotonic clock of this process.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Origin {
     /// The start of the system, by its id.

@@ -28,7 +28,7 @@ impl<Q, A> Pending<Q, A> {
         self.answer.is_closed()
     }
 
-    /// Answers the request. Who has asked may have gone: what is done is done all the same.
+    /// Answers the request. The caller may have disconnected: the work is done all the same.
     pub(crate) fn answer(self, answer: A) {
         let _ = self.answer.send(answer);
     }
@@ -80,7 +80,7 @@ impl<Q: Send + 'static, A: Send + 'static> Groups<Q, A> {
 
     fn take(&self) -> Vec<Pending<Q, A>> {
         let mut pending = self.pending();
-        // Who has gone got no answer, so what was asked for must not be done later.
+        // A caller that has disconnected got no answer, so its request must not be served later.
         pending.retain(|pending| !pending.is_given_up());
         let count = pending.len().min(LIMIT);
         pending.drain(..count).collect()

@@ -50,7 +50,7 @@ pub enum ObjectsError {
     Damaged {
         /// The file.
         what: String,
-        /// What differs.
+        /// The difference.
         how: String,
     },
     /// There is no such object.
@@ -157,7 +157,7 @@ impl Objects {
         &self.location
     }
 
-    /// Whether it is marked.
+    /// Checks whether the store has its mark.
     ///
     /// # Errors
     /// [`ObjectsError`] if it cannot be reached.
@@ -169,7 +169,7 @@ impl Objects {
         }
     }
 
-    /// Marks it.
+    /// Writes the mark of the store.
     ///
     /// # Errors
     /// [`ObjectsError`].

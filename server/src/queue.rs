@@ -23,23 +23,23 @@ pub const ATTEMPT_LIMIT: u32 = 3;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Transition {
-    /// A worker claims it.
+    /// A worker claims the job.
     Claim,
     /// The solve returned a result.
     Succeed,
     /// The solve failed; the same input would fail again.
     Fail,
-    /// It was cancelled: by the user while queued, by its worker while running.
+    /// The job was cancelled: by the user while queued, by its worker while running.
     Cancel,
-    /// Worker releases it at a graceful shutdown.
+    /// The worker releases the job at a graceful shutdown.
     Release,
     /// The worker cannot make the attempt at present, by no fault of the job.
     Decline,
-    /// Worker was lost.
+    /// The worker was lost.
     WorkerLost,
-    /// Deadline has passed.
+    /// The deadline has passed.
     Expire,
-    /// User asks for another try.
+    /// The user requests another try.
     Retry,
 }
 

@@ -33,9 +33,9 @@ const MARGIN: f64 = 10.0;
 /// A rated life.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request<'a> {
-    /// The contact; the ratios of its wear coefficients are kept.
+    /// The contact; the ratios of its wear coefficients stay as given.
     pub resolved: &'a Resolved,
-    /// What ends its life.
+    /// Criterion that ends the life.
     pub criterion: Criterion,
     /// The rated cycles.
     pub cycles: u64,
@@ -52,9 +52,9 @@ pub enum RatingError {
     /// A run failed.
     #[error("the run with {factor:.4e} times the coefficients failed: {failure}")]
     Failed {
-        /// What the given coefficients were multiplied by.
+        /// Factor on the given coefficients.
         factor: f64,
-        /// Why.
+        /// The failure.
         failure: Failure,
     },
     /// A run ended before the criterion was reached.
@@ -62,7 +62,7 @@ pub enum RatingError {
         "with {factor:.4e} times the coefficients the criterion was not reached: {outcome} after {cycles} cycles"
     )]
     NotReached {
-        /// What the given coefficients were multiplied by.
+        /// Factor on the given coefficients.
         factor: f64,
         /// How the run ended.
         outcome: &'static str,

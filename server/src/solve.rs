@@ -29,7 +29,7 @@ pub use cost::{children_cpu_s, cpu_s, thread_cpu_s};
 pub(crate) use process::LINE_LIMIT;
 pub use protocol::{ChildMessage, Failure};
 
-/// What is solved.
+/// Scene to be solved, with the parts of its specification that results need.
 #[derive(Debug, Clone, Copy)]
 pub struct Case<'a> {
     /// The scene.
@@ -40,9 +40,9 @@ pub struct Case<'a> {
     pub motion: Option<&'a DerivedMotion>,
     /// The blocks of its mission.
     pub blocks: &'a [BlockExtent],
-    /// What a criterion of the contact resistance lacks; nothing if it is modelled.
+    /// Data missing for a criterion of the contact resistance; empty if the resistance is modelled.
     pub resistance_lacks: &'a [String],
-    /// What depends on wear coefficients and cycles by their product.
+    /// Results that depend on wear coefficients and cycles by their product.
     pub(crate) follows_product: FollowsProduct,
 }
 

@@ -77,7 +77,7 @@ pub struct Resolved {
     pub motion: Option<DerivedMotion>,
     /// The blocks of its mission.
     pub blocks: Vec<BlockExtent>,
-    /// What a criterion of the contact resistance lacks, in words; nothing if it is modelled.
+    /// Data missing for a criterion of the contact resistance, in words; empty if the resistance is modelled.
     pub resistance_lacks: Vec<String>,
     /// Values that were probably written in another unit.
     pub warnings: Vec<Fault>,
@@ -86,10 +86,10 @@ pub struct Resolved {
 /// Reason for which a submitted document is refused.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Refused {
-    /// It cannot be parsed.
+    /// The document cannot be parsed.
     #[error(transparent)]
     Parse(#[from] ParseError),
-    /// It has these faults.
+    /// The specification has these faults.
     #[error("the specification has {} fault(s)", .0.len())]
     Faults(Vec<Fault>),
 }

@@ -124,7 +124,7 @@ pub(super) struct CalibrateArguments {
     /// The rated cycles.
     #[arg(long, value_parser = clap::value_parser!(u64).range(rating::RATED_CYCLES))]
     pub(super) rated_cycles: u64,
-    /// What ends the life: a kind, such as `base_metal`, or a criterion as in `life.criteria`, such as
+    /// Criterion that ends the life: a kind, such as `base_metal`, or one as in `life.criteria`, such as
     /// '{"kind": "worn_depth", "mm": 0.001}'.
     #[arg(long, value_parser = criterion)]
     pub(super) criterion: Criterion,

@@ -64,7 +64,7 @@ fn value(effect: &PlannedEffect) -> String {
     }
 }
 
-/// What each value is, and the reasons.
+/// Lines with the indicator of each effect and the reason for its decision.
 fn reasons(plan: &Plan) -> String {
     let lines = plan.effects.iter().map(|effect| {
         let PlannedEffect {

@@ -77,7 +77,7 @@ where
         if let Ok(ended) = ended {
             ended?;
         } else {
-            // Its job is reclaimed when the lease ends.
+            // The job of the worker is reclaimed when the lease ends.
             tracing::error!("a worker has ended by a panic; another one is started");
             tokio::time::sleep(RESTART_PAUSE).await;
             workers.spawn(start());

@@ -12,10 +12,10 @@ use crate::client::{Client, ClientError, repeated};
 use crate::export::files::is_plain_name;
 use crate::store::integrity::{self, Checksum};
 
-/// What became of a file.
+/// Result of a download.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fetched {
-    /// It was received.
+    /// The file was received.
     Received,
     /// The folder had it already.
     Present,

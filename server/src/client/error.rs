@@ -118,7 +118,7 @@ pub enum ClientError {
     NoFile {
         /// The file.
         name: String,
-        /// What there is.
+        /// The files of the manifest.
         others: String,
     },
 }

@@ -18,7 +18,7 @@ const PAUSE: Duration = Duration::from_secs(1);
 /// Time without a connection or a byte of the stream after which no further attempt is made.
 const PATIENCE: Duration = Duration::from_mins(5);
 
-/// What a stream tells while a job has not ended.
+/// Report of a stream while a job has not ended.
 #[derive(Debug, Clone, Copy)]
 pub enum Followed<'a> {
     /// Progress of the job.
@@ -78,7 +78,7 @@ impl Client {
         let response = self.send(request).await?;
         if response.status() == StatusCode::NO_CONTENT {
             let job = self.job(id).await?;
-            // It may have been queued again.
+            // The job may have been queued again.
             return Ok(if job.status.is_terminal() {
                 Ended::Done(Box::new(done(job)))
             } else {

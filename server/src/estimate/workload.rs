@@ -199,7 +199,7 @@ fn is_layered(scene: &Scene) -> bool {
 /// Part of the time of a condensation that the fields of a snapshot take. Measured: 0.63, 0.55 and 0.42 with 2, 3 and 5 planes.
 const INTERIOR_SHARE: f64 = 0.5;
 
-/// What the fields of extruded bodies are factored for: each snapshot, and the unworn state. Those of other bodies are factored already.
+/// Condensations for the fields of extruded bodies: at each snapshot, and in the unworn state. Other bodies are factored already.
 fn interiors(scene: &Scene, layout: &Layout) -> [Condensations; 2] {
     let extruded = ExtrudedScene::of(scene).filter(|bodies| bodies.section.output.fields);
     let Some(extruded) = extruded else {

@@ -96,7 +96,7 @@ pub fn write_atomically(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), F
         File::open(folder)?.sync_all()
     };
     written().map_err(|cause| {
-        // It would occupy disk space. If removal fails, retention deletes it with all files that no manifest lists.
+        // The partial file would occupy disk space. If removal fails, retention deletes it with all files that no manifest lists.
         let _ = std::fs::remove_file(&unfinished);
         FilesError::Write { path, cause }
     })

@@ -24,7 +24,7 @@ pub(crate) fn blocks(planned: &[BlockExtent], summary: &Summary) -> Vec<BlockSum
         .collect()
 }
 
-/// What has been done of a block.
+/// Computed part of a block.
 fn done(planned: &BlockExtent, worn: &BlockWear) -> BlockExtent {
     let part = real(worn.cycles) / real(planned.cycles);
     BlockExtent {

@@ -31,19 +31,19 @@ pub(super) enum BodyError {
     /// The connection broke off.
     #[error("the body could not be received: {0}")]
     Broken(axum::Error),
-    /// It has not arrived in time.
+    /// The body has not arrived in time.
     #[error(
         "the body did not arrive in time: it was {} s behind a rate of {} KiB a second",
         TIMEOUT.as_secs(),
         RATE >> 10
     )]
     Slow,
-    /// Others need its place.
+    /// Other requests need the memory of the body.
     #[error(
         "the body was given up after {0} bytes: those of other requests need its place; send the request again"
     )]
     GaveWay(u64),
-    /// It is too large.
+    /// The body is too large.
     #[error("the body has more than {0} bytes")]
     TooLarge(u64),
 }

@@ -231,7 +231,7 @@ mod tests {
             let head = format!("{begin}{filling}{end}").into_bytes();
             let mut stream = TcpStream::connect(address).await.expect("a connection");
             for part in head.chunks(length.div_ceil(parts)) {
-                // It may be refused before all of it is sent.
+                // The head may be refused before all of it is sent.
                 let _ = stream.write_all(part).await;
                 tokio::task::yield_now().await;
             }

@@ -143,7 +143,7 @@ fn complete_operation(noun: Option<&str>, operation: &mut Value) {
     }
 }
 
-/// What the id in a path identifies, if it has one.
+/// Noun of the resource that the id in a path identifies, if it has one.
 fn identified(path: &str) -> Option<&'static str> {
     let nouns = [
         ("jobs", "job"),

@@ -8,7 +8,7 @@ pub(in crate::http) struct ProblemType {
     pub(in crate::http) name: &'static str,
     /// Title, the same for every problem of the type.
     pub(in crate::http) title: &'static str,
-    /// What it means and what to do, in Markdown without lists and links.
+    /// Meaning and remedy, in Markdown without lists and links.
     pub(in crate::http) explanation: &'static str,
 }
 

@@ -25,15 +25,15 @@ const CHUNK_BYTES: usize = 64 << 10;
 /// A file that belongs into an object.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ObjectFile {
-    /// Where it is.
+    /// Place of the content.
     pub source: Source,
     /// Length.
     pub bytes: u64,
-    /// Its SHA-256, hexadecimal.
+    /// SHA-256, hexadecimal.
     pub sha256: String,
 }
 
-/// Where such a file is.
+/// Place of the content of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Source {
     /// On this machine.
@@ -94,7 +94,7 @@ impl Objects {
 }
 
 impl ObjectFile {
-    /// Reads all of it.
+    /// Reads the whole file.
     ///
     /// # Errors
     /// [`ObjectsError`] if it cannot be read, or is missing or another one.
@@ -121,7 +121,7 @@ impl ObjectFile {
 }
 
 impl Source {
-    /// Reads it in chunks.
+    /// Reads the file in chunks.
     async fn open(&self) -> Result<BoxStream<'static, Result<Bytes, ObjectsError>>, ObjectsError> {
         match self {
             Self::File(path) => {
@@ -144,7 +144,7 @@ impl Source {
         }
     }
 
-    /// The error of one that is missing or another one.
+    /// The error of a file that is missing or another one.
     fn damaged(&self, how: String) -> ObjectsError {
         let what = match self {
             Self::File(path) => path.display().to_string(),

@@ -20,7 +20,7 @@ pub struct WaitingJob {
     pub cpu_ms: i64,
 }
 
-/// Memory of solving processes, and what the running ones use of it.
+/// Memory of solving processes, and the part of it that is in use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MemoryBudget {
     /// Memory of all solving processes together, MB.
@@ -52,7 +52,7 @@ impl MemoryBudget {
     }
 }
 
-/// What a worker can take.
+/// Free capacity of a worker.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Capacity {
     /// Number of solves that can be started.

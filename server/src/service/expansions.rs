@@ -35,14 +35,14 @@ enum QueueError {
     Task(#[from] JoinError),
 }
 
-/// What a round has done.
+/// Outcome of a round.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Done {
     /// No sweep needed jobs.
     Nothing,
     /// Another service queues them, or the sweep was just cancelled.
     Behind,
-    /// It has queued some.
+    /// The round has queued jobs.
     Queued,
 }
 

@@ -34,13 +34,13 @@ pub struct EncodedCheckpoint {
 /// Why bytes cannot be decoded as a checkpoint.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CheckpointError {
-    /// It was written by another version of the program.
+    /// The checkpoint was written by another version of the program.
     #[error("it has format {found}, this is format {FORMAT}")]
     Format {
         /// Format number.
         found: u32,
     },
-    /// It is truncated or damaged.
+    /// The checkpoint is truncated or damaged.
     #[error("it cannot be decoded: {0}")]
     Damaged(#[from] postcard::Error),
 }

@@ -104,13 +104,13 @@ pub(crate) enum LineError {
 /// Why a solving process ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ExitCause {
-    /// It exited with this code.
+    /// Exited with this code.
     Code(i32),
-    /// It was killed from outside.
+    /// Killed from outside.
     Killed,
-    /// It was killed by the kernel, because memory ran out.
+    /// Killed by the kernel, because memory ran out.
     KilledForMemory,
-    /// It caused this signal itself: the same input would do so again.
+    /// Crashed by a signal that the process caused itself: the same input would do so again.
     Crashed(i32),
 }
 
@@ -257,7 +257,7 @@ fn has_killed_since(before: Option<u64>) -> bool {
     kills.is_some_and(|(now, before)| now > before)
 }
 
-/// Writes the input of a process, which may be slow to read it, and then holds the pipe open: its end tells the process
+/// Writes the input of a process, which may be slow to read it, and then holds the pipe open: its end informs the process
 /// that its supervisor has ended.
 async fn send_input(mut stdin: ChildStdin, input: String) {
     if let Err(error) = stdin.write_all(input.as_bytes()).await {

@@ -1,7 +1,7 @@
 //! The protocol between a solving process (`fretwear solve-child`) and its supervisor.
 //!
 //! Standard input: two lines of JSON, the resolved specification and the checkpoint to resume from (`null` for none).
-//! It stays open as long as the supervisor lives; the process ends when it closes. Standard output: one [`ChildMessage`] (JSON)
+//! The pipe is open as long as the supervisor lives; the process ends when it closes. Standard output: one [`ChildMessage`] (JSON)
 //! a line, the first of them [`ChildMessage::Ready`]: a process that ends before it was not started, whatever its job is. Files are written into the attempt's folder, and the lines only name them. SIGTERM asks for a checkpoint
 //! after the current cycle and the end of the process.
 
@@ -23,7 +23,7 @@ pub(crate) const EXIT_ORPHANED: i32 = 3;
 /// Exit code of a solving process that could not write a file: not a failure of the solve, so the job is tried again.
 pub(crate) const EXIT_FILE_NOT_WRITTEN: i32 = 4;
 
-/// Exit code of a solving process whose files have no space on the disk: a fault of the machine, which gives the job back.
+/// Exit code of a solving process whose files have no space on the disk: a fault of the machine, which releases the job.
 pub(crate) const EXIT_DISK_FULL: i32 = 5;
 
 /// One line of a solving process, in order; the last one is `Summary`, `Failed` or `Stopped`.

@@ -16,11 +16,11 @@ const NO_RESISTIVITY: &str =
     "a resistivity is not known: give `resistivity_ohm_m` of each material";
 const NO_HARDNESS: &str = "a hardness is not known: give `hardness_mpa` of each material";
 
-/// What conducts, and what is known of it.
+/// Conductors of the contact, and the data missing for their resistance.
 pub(super) struct Conductors {
-    /// With the limits of no criterion yet.
+    /// Electrical model, without the limits of criteria so far.
     pub(super) conduction: Conduction,
-    /// What a criterion of the resistance lacks, in words.
+    /// Data missing for a criterion of the resistance, in words.
     pub(super) lacks: Vec<String>,
 }
 
@@ -32,8 +32,8 @@ pub(super) struct Bodies<'a> {
     pub(super) motion: Motion,
 }
 
-/// Resolves what conducts in a specification whose materials, laws and load are resolved; fills in its spots where the resistance is
-/// computed.
+/// Resolves the conductors of a specification whose materials, laws and load are resolved; fills in its spots where the resistance
+/// is computed.
 pub(super) fn resolve(
     filled: &mut Spec,
     bodies: Bodies<'_>,
@@ -71,7 +71,7 @@ pub(super) fn resolve(
         let bottoms = bottoms(of_side.1).chain([f64::INFINITY]);
         let metals = pointers.chain([base]).zip(bottoms).enumerate();
         let metals = metals.map(|(number, ((name, material, law), bottom_mm))| {
-            // Whether it wears or not.
+            // The hardness matters for the resistance, even of a metal that does not wear.
             let hardness = environment::hardness_mpa(temperature, material, law);
             let resistivity = resistivity(material);
             if resistivity.is_none() {

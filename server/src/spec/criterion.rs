@@ -16,7 +16,7 @@ pub(in crate::spec) const FRACTION: RangeInclusive<f64> = 1e-3..=0.99;
 /// mOhm.
 pub(in crate::spec) const RESISTANCE_MOHM: RangeInclusive<f64> = 1e-6..=1e12;
 
-/// The platings of a scene, which side wears at all, and what the resistance lacks.
+/// The platings of a scene, the sides that wear at all, and the data missing for the resistance.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Surfaces<'a> {
     pub(super) plating: &'a Sides<Vec<Layer>>,
@@ -24,7 +24,7 @@ pub(super) struct Surfaces<'a> {
     pub(super) resistance_lacks: &'a [String],
 }
 
-/// What the engine compares of a criterion.
+/// Criterion as the engine compares it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Modelled {
     /// A depth of a part of a scar.
@@ -122,7 +122,7 @@ pub(super) fn resolve(
             &RESISTANCE_MOHM,
             diagnostics,
         );
-        // That of the whole contact, whichever side is named.
+        // The resistance is that of the whole contact, whichever side is named.
         let named = Criterion {
             side: None,
             ..given.clone()

@@ -91,7 +91,7 @@ pub(crate) fn has_small_strains(given: &Given, scene: &Scene) -> bool {
     accepted || small_strain::cost(scene) <= small_strain::limit(scene)
 }
 
-/// Adds a fault for a friction by dose beside heat that the plan simulates: the worn depth no longer tells the dose of a place.
+/// Adds a fault for a friction by dose beside heat that the plan simulates: the dose of a place does not follow from the worn depth.
 fn check_dose(scene: &Scene, plan: &EffectsPlan, diagnostics: &mut Diagnostics) {
     let heats = [Effect::FrictionalHeating, Effect::JouleHeating];
     let heated = heats.into_iter().find(|effect| plan.simulates(*effect));

@@ -12,7 +12,7 @@ use crate::spec::materials;
 use crate::spec::sourced::assumed;
 use crate::spec::system::{LayerPreset, Preset};
 
-/// What covers a part.
+/// Plating of a part, with its origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum PlatingChoice<'a> {
     /// Layers of the specification.
@@ -40,7 +40,7 @@ pub(super) fn given(platings: &Platings) -> Sides<Option<&[PlatingLayer]>> {
     }
 }
 
-/// What covers both parts.
+/// Resolves the platings of both parts.
 pub(super) fn resolve<'a>(spec: &'a Spec, preset: &Preset) -> Sides<PlatingChoice<'a>> {
     let given = given(&spec.plating);
     Sides::from_fn(|side| match (*given.of(side), *preset.plating.of(side)) {

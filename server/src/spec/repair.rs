@@ -42,7 +42,7 @@ pub(super) fn with_others(
             Ok((spec, mut unknown)) => {
                 suggestion::suggest_fields(&mut unknown);
                 error.others.extend(unknown);
-                // What is said of a value that was left out follows from that.
+                // Faults of a value that was left out follow from its removal.
                 let is_own =
                     |fault: &Fault| !left_out.iter().any(|at| fault.pointer.starts_with(at));
                 error

@@ -72,7 +72,7 @@ fn lognormal(variation: f64, part: f64) -> f64 {
     (s * Normal::standard().inverse_cdf(part)).exp()
 }
 
-/// What depends on coefficient and cycles by their product.
+/// Quantities that depend on coefficient and cycles by their product.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct FollowsProduct {
     pub(crate) depths: bool,
@@ -80,7 +80,7 @@ pub(crate) struct FollowsProduct {
 }
 
 impl FollowsProduct {
-    /// What does in a contact.
+    /// Determines these quantities of a contact.
     pub(crate) fn of(interface: &Interface) -> Self {
         let changes =
             |friction: &Friction| friction.by_cycle.is_some() || friction.by_dose.is_some();

@@ -1,4 +1,4 @@
-//! Whom a worker works for: the store of its own process, or a remote service. Both give the same answers, which the tests in
+//! Sources of the jobs of a worker: the store of its own process, or a remote service. Both give the same answers, which the tests in
 //! `worker/job_source/tests.rs` compare.
 
 mod remote;
@@ -84,9 +84,9 @@ impl JobSourceError {
     }
 }
 
-/// Whom a worker works for.
+/// Source of the jobs of a worker: a store or a service.
 pub trait JobSource: Send + Sync + 'static {
-    /// Attempts write to the disk of the database, which all jobs wait for while it is full. From another disk a job is given back.
+    /// True if attempts write to the disk of the database, which all jobs wait for while it is full; otherwise a job is released.
     const WAITS_FOR_DISK: bool;
 
     /// Claims jobs. A repeated request gets the same ones.
@@ -155,7 +155,7 @@ pub trait JobSource: Send + Sync + 'static {
     /// The jobs that wait and run, of all workers.
     fn demand(&self) -> impl Future<Output = Result<Demand, JobSourceError>> + Send;
 
-    /// Whether no job waits or runs anywhere.
+    /// Checks whether no job waits or runs anywhere.
     fn is_idle(&self) -> impl Future<Output = Result<bool, JobSourceError>> + Send {
         async {
             let demand = self.demand().await?;

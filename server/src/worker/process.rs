@@ -119,7 +119,7 @@ impl WorkerProcess {
         // Without an answer the same request is made again, by whichever worker is next.
         let answer = tokio::select! {
             answer = job_source.claim(&request) => answer,
-            // It may wait for long. Repeated without a slot, it gets what it has claimed meanwhile, to be given back.
+            // The request may wait for long. Repeated without a slot, it returns the jobs claimed meanwhile, to be released.
             () = stopping.cancelled() => job_source.claim(&without_slots(request)).await,
         };
         turn.note(answer.is_ok());

@@ -1,5 +1,5 @@
-//! What remote workers and the service send each other under `/v1/worker/`: JSON, between programs of the same version, which the
-//! service checks. It is no part of the interface that users rely on.
+//! Messages between remote workers and the service under `/v1/worker/`: JSON, between programs of the same version, which the
+//! service checks. They are no part of the interface that users rely on.
 
 use std::time::Duration;
 
@@ -41,9 +41,9 @@ pub struct ClaimBody {
     pub host: String,
     /// Number of jobs that it solves at once.
     pub slots: usize,
-    /// What it asks for.
+    /// Request for jobs.
     pub request: ClaimRequest,
-    /// How long it waits for a job, up to [`LONGEST_WAIT`].
+    /// Longest wait for a job, up to [`LONGEST_WAIT`].
     pub wait: Duration,
 }
 
@@ -75,9 +75,9 @@ pub enum WriteAnswer {
     Lease(LeaseState),
     /// The status of a job after its end; null if the lease was lost.
     Status(Option<Status>),
-    /// It was not done.
+    /// The write was not done.
     Problem(Problem),
-    /// It is being done and would hold up the others; whether it was done is answered to a request with it alone.
+    /// The write is in progress and would delay the others; a request with it alone returns its result.
     Pending,
 }
 

@@ -199,7 +199,7 @@ async fn a_stop_before_a_restart_discards_the_rows_of_the_restarted_run() {
         "it is of another version".to_owned(),
     ));
     let row = serde_json::to_string(&ChildMessage::Cycle(Box::new(row(1)))).expect("a line");
-    // It reports the restart only when it is asked to end.
+    // The script reports the restart only after SIGTERM.
     let script = format!(
         "trap \"echo '{}'; echo '{row}'; exit 0\" TERM; read spec; read checkpoint; while :; do sleep 0.05; done",
         restarted.expect("a line").replace('"', "\\\"")

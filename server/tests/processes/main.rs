@@ -153,7 +153,7 @@ async fn solving_processes_get_no_secrets_and_end_with_a_killed_server() {
     panic!("a solving process outlives its server");
 }
 
-/// Whether a process is running; a zombie is not.
+/// Checks whether a process is running; a zombie is not.
 fn is_running(id: i32) -> bool {
     std::fs::read_to_string(format!("/proc/{id}/stat")).is_ok_and(|stat| {
         stat.rsplit(')')

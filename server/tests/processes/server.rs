@@ -1,4 +1,4 @@
-//! A server process, and what is asked of it.
+//! A server process, and requests to it.
 
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -131,7 +131,7 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // It may have exited already.
+        // The process may have exited already.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

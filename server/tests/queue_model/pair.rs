@@ -184,7 +184,7 @@ impl Pair {
                     *job = after;
                     queued += 1;
                 } else {
-                    // It is held under a new lease until its manifest is built.
+                    // The job is held under a new lease until its manifest is built.
                     let claim = reclaimed.ending.iter().find(|claim| claim.id == job.id);
                     let lease = claim.map_or(0, |claim| claim.lease);
                     prop_assert!(lease > job.lease);

@@ -8,7 +8,7 @@ pub enum StudyError {
     /// A solving process could not be run.
     #[error("a solving process: {0}")]
     Process(#[from] std::io::Error),
-    /// What a solving process wrote cannot be read.
+    /// A line of a solving process cannot be read.
     #[error("a line of a solving process: {0}")]
     Line(#[from] serde_json::Error),
     /// No run can be made.

@@ -149,7 +149,7 @@ fn grid_within(
     let factor = fixed(pilot).map_or(1.0, |run| run.expected_s / baseline.cost_s(pilot));
     let (grid, runs) = within(factor);
     let (expected, foreseen) = sums(&runs, baseline);
-    // What the runs of this grid are expected to take says more than the pilot does.
+    // The expected times of this grid's runs are a better estimate than that of the pilot.
     if expected > most_s && expected > factor * foreseen {
         within(expected / foreseen)
     } else {

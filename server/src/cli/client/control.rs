@@ -13,14 +13,14 @@ pub(in crate::cli) struct ControlArguments {
     server: ServerOptions,
 }
 
-/// What is done with each job.
+/// Request that is sent for each job.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Action {
     Cancel,
     Retry,
 }
 
-/// Does it with each job; one that is refused does not prevent the others.
+/// Sends the request for each job; one that is refused does not prevent the others.
 pub(super) fn run(arguments: &ControlArguments, action: Action) -> Ended {
     let client = arguments.server.client()?;
     let mut ended = Ok(());

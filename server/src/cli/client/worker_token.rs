@@ -14,12 +14,12 @@ use crate::cli::terminal::{Ended, failed_at, printable, unusable_at, write_out};
 use crate::client::WrittenId;
 use crate::export::markdown;
 
-/// What is done with tokens.
+/// Subcommands of `fretwear worker-token`.
 #[derive(Debug, Subcommand)]
 pub(in crate::cli) enum TokenAction {
     /// Make a token. It is shown once.
     Create {
-        /// What it is for, such as the name of a cluster.
+        /// Purpose of the token, such as the name of a cluster.
         name: String,
         /// Write it into this file, which only its owner can read, instead of to standard output.
         #[arg(long)]

@@ -60,7 +60,7 @@ pub fn svg(picture: &Picture) -> Result<String, PlotError> {
     drawing(size, |root| draw(picture, root, size))
 }
 
-/// What is drawn on an area of a size in drawing units.
+/// Returns an SVG with an area of a size in drawing units, filled by `draw`.
 pub(super) fn drawing(
     size: (u32, u32),
     draw: impl FnOnce(&Area<'_>) -> Result<(), PlotError>,

@@ -1,7 +1,7 @@
 //! Picture of the life of a contact: the exposed part of each layer and the contact resistance over the cycles, with the limits of the
 //! criteria and the band by the scatter of the wear coefficients.
 //!
-//! What is worn depends on coefficient and cycles by their product, so that a contact whose coefficient is c times as large has the same
+//! Worn depths depend on coefficient and cycles by their product, so that a contact whose coefficient is c times as large has the same
 //! curve over 1/c of the cycles.
 
 use api::spec::{CriterionKind, EnumValue, LifeSettings};

@@ -150,7 +150,7 @@ fn a_current_without_a_resistance_heats_nothing() {
     let (verdict, _, reason) = decided(&accepted(off).scene, Effect::JouleHeating);
     assert_eq!(verdict, Verdict::Skipped);
     assert!(reason.contains("switched off"), "{reason}");
-    // Without a force the resistance of a contact with a current is asked for in vain.
+    // Without a force the resistance of a contact with a current cannot be computed.
     let unknown = r#"{"system":{"kind":"sd_card"},"environment":{"current_a":5},"load":{"kind":"line_force","n_per_mm":0.5}}"#;
     let warned = accepted(unknown).warnings;
     assert!(
@@ -204,7 +204,7 @@ fn a_part_that_does_not_wear_melts_too() {
         to_melting.is_some_and(|margin| (margin - 211.9).abs() < 1.0),
         "{to_melting:?}"
     );
-    // Its hardness counts for the spots.
+    // The hardness of tin counts for the spots.
     let hardness = |rest: &str| {
         let scene = accepted(&with(rest)).scene;
         let electrical = scene.conduction.known().expect("all of it is known");

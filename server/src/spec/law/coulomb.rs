@@ -25,7 +25,7 @@ pub(super) fn resolve(
 }
 
 fn given_law(given: &Friction, diagnostics: &mut Diagnostics) -> scene::Friction {
-    // What stands for a law, or for a table, with faults.
+    // Placeholders for a law, or for a table, with faults.
     let none = scene::Friction::Coulomb { coefficient: 0.0 };
     let empty = || scene::Table::new(&[(0.0, 0.0)]);
     match (given.coefficient, &given.by_cycle, &given.by_dose) {

@@ -55,7 +55,7 @@ fn surface<'a>(
 fn name(material: &Material) -> Option<&str> {
     match material {
         Material::Named(name) => Some(name),
-        // Its properties may be other ones than those of the library.
+        // A given material may have other properties than the library's.
         Material::Given(_) => None,
     }
 }

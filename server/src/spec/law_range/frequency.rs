@@ -39,7 +39,7 @@ pub(super) fn warnings(spec: &Spec, scene: &Scene) -> Vec<Fault> {
     warnings.collect()
 }
 
-/// What the farthest frequency of the motion or the mission is worth.
+/// Warning if the wear at the farthest frequency of the motion or the mission deviates by more than the tolerance.
 fn at_another_frequency(law: &WearLaw, scene: &Scene) -> Option<String> {
     let measured = law.measured_at_hz?;
     let change = |frequency: f64| ((frequency / measured).powf(EXPONENT) - 1.0).abs();

@@ -35,7 +35,7 @@ fn always_slips() -> f64 {
 fn range_between_stops(ratio: f64) -> f64 {
     let begin = ratio.asin();
     let velocity = |t: f64| begin.cos() - t.cos() - ratio * (t - begin);
-    // It is largest where the accelerations are equal again, and negative a period later.
+    // The velocity is largest where the accelerations are equal again, and negative a period later.
     let (mut low, mut high) = (PI - begin, begin + 2.0 * PI);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);

@@ -34,7 +34,7 @@ const WRITES: &str = "/v1/worker/writes";
 /// Why a write has no answer to a request of several.
 #[derive(Debug, Clone)]
 enum NotSent {
-    /// It is to be sent alone.
+    /// The write is to be sent alone.
     Alone,
     /// The service was not reached, and would not be by a request with one of them.
     Unreachable { url: String, cause: String },

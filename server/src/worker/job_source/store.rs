@@ -140,14 +140,14 @@ async fn finish(
     };
     if end.transition == Transition::Succeed {
         let missing = store.missing_files(lease).await?;
-        // Of a lost lease or a repeated end, the end below says what it has led to.
+        // For a lost lease or a repeated end, the end below returns its effect.
         if !missing.is_empty() && store.lease_state(lease).await? != LeaseState::Lost {
             return store.solve_again(lease, &last, &missing).await;
         }
     }
     if last.block.is_none() {
         let LeaseState::Held { cancel_requested } = store.lease_state(lease).await? else {
-            // It was lost, or this end is a repeated one.
+            // The lease was lost, or this end is a repeated one.
             return store.end(lease, update, end).await;
         };
         // A cancelled job must end although nothing more can be stored, so that it can be deleted and its space be freed. Its rows

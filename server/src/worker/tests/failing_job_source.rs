@@ -141,7 +141,7 @@ impl JobSource for Failing {
     }
 }
 
-/// What was computed up to the end is part of the results of a job that succeeds; of a cancelled one it may be lost.
+/// The last update is part of the results of a job that succeeds; that of a cancelled job may be lost.
 #[tokio::test]
 async fn a_job_whose_last_update_is_refused_does_not_succeed() {
     let job_source = Failing {

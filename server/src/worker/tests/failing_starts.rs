@@ -55,7 +55,7 @@ const FAULTS: [Fault; 7] = [
     },
 ];
 
-/// Runs a worker with a fault until its job has gone back to the queue, and then with a program that starts.
+/// Runs a worker with a fault until its job is in the queue again, and then with a program that starts.
 async fn repaired(fault: &Fault) {
     let folder = TempDir::new().expect("a temporary folder");
     (fault.harm)(folder.path());

@@ -46,7 +46,7 @@ async fn retry(app: &App, batch: BatchId) -> Retried {
         sweep: Some(batch.id),
         ..Filter::default()
     };
-    // It continues if the client does not wait for its end.
+    // The retry continues if the client disconnects before its end.
     let store = Arc::clone(&app.store);
     let retried = tokio::spawn(async move { store.retry_all(filter).await }).await??;
     Ok((StatusCode::ACCEPTED, Json(RetriedJobs { retried })))

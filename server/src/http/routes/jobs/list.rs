@@ -65,12 +65,12 @@ const ORDERS: [(&str, OrderKey); 8] = [
     reason = "only describes the parameters, which are parsed one by one because labels repeat"
 )]
 pub(crate) struct PageQuery {
-    /// What the jobs are ordered by, the smallest first, or with a `-` in front the largest: `created`, `name`, `system`, `status`, `progress`,
+    /// Order of the jobs, the smallest value first, or with a `-` in front the largest: `created`, `name`, `system`, `status`, `progress`,
     /// `wear` (the deeper one of both sides), `life` (cycles until the first criterion) or `duration`; `-created` by default. Jobs without a value come last. A page
     /// begins behind the last job of the one before: only a job whose own value changes between two pages can be listed twice or not at all.
     #[param(pattern = "^-?(created|name|system|status|progress|wear|life|duration)$")]
     sort: Option<String>,
-    /// Whether the jobs of all pages are counted.
+    /// True to count the jobs of all pages.
     total: Option<bool>,
     /// `short` (default), or `full` with specification, plan and summary.
     #[param(inline)]
@@ -93,7 +93,7 @@ pub(crate) enum View {
     Full,
 }
 
-/// ListPlace of the last job of a page.
+/// Place of the last job of a page.
 #[derive(Debug, Serialize, Deserialize)]
 struct JobPlace {
     place: ListPlace,

@@ -51,7 +51,7 @@ pub(crate) async fn retry_filtered(
     Params(pairs): Params<Vec<(String, String)>>,
 ) -> Result<(StatusCode, Json<RetriedJobs>), ProblemResponse> {
     let filter = parse(&pairs)?;
-    // It continues if the client does not wait for its end.
+    // The retry continues if the client disconnects before its end.
     let store = Arc::clone(&app.store);
     let retried = tokio::spawn(async move { store.retry_all(filter).await }).await??;
     Ok((StatusCode::ACCEPTED, Json(RetriedJobs { retried })))

@@ -21,7 +21,7 @@ impl RouteError for NoTypeError {
     const TYPE: ProblemType = ProblemType::NO_SUCH_PATH;
 }
 
-/// What a type of problem means, and what to do.
+/// Meaning of a type of problem, and its remedy.
 #[utoipa::path(
     get,
     path = "/problems/{name}",

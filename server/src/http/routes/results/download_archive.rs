@@ -96,7 +96,7 @@ pub(crate) async fn archive(
     Ok((headers, Body::from_stream(body)).into_response())
 }
 
-/// What an archive contains.
+/// Contents of an archive.
 struct Archived {
     id: Uuid,
     files: Vec<ResultFile>,

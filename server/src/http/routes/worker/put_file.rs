@@ -27,7 +27,7 @@ pub(crate) enum FileError {
     /// Another worker holds the job.
     #[error("lease {} of job {} has ended", .0.number, .0.job)]
     LeaseLost(Lease),
-    /// It has not arrived.
+    /// The file has not arrived.
     #[error("the file did not arrive: {0}")]
     Body(#[from] BodyError),
     /// The content is another one.
@@ -37,7 +37,7 @@ pub(crate) enum FileError {
         found: String,
         named: String,
     },
-    /// It cannot be written.
+    /// The file cannot be written.
     #[error("a file cannot be written: {0}")]
     Write(#[from] std::io::Error),
 }
@@ -134,7 +134,7 @@ async fn into_folder(app: &App, body: ArrivingBody, sent: Sent) -> Result<NewCon
     renamed.map(|()| NewContent::Folder)
 }
 
-/// Gives a file in a folder its name, durably.
+/// Renames a file in a folder to its final name, durably.
 async fn rename(unfinished: &Path, folder: &Path, name: &str) -> std::io::Result<()> {
     tokio::fs::rename(unfinished, folder.join(name)).await?;
     tokio::fs::File::open(folder).await?.sync_all().await

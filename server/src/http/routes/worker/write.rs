@@ -71,7 +71,7 @@ async fn answers(store: &Arc<Store>, writes: Vec<Write>, longest: Duration) -> V
         let problem = ProblemType::INTERNAL.with_detail("the write was interrupted");
         WriteAnswer::Problem(problem.document())
     };
-    // In tasks of their own: who watches a job learns of a change also if the worker has gone meanwhile.
+    // In tasks of their own: subscribers of a job are notified even if the worker has disconnected meanwhile.
     let tasks: Vec<_> = jobs
         .into_values()
         .map(|writes| tokio::spawn(one_after_the_other(Arc::clone(store), writes)))

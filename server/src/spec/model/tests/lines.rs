@@ -200,7 +200,7 @@ fn auto_chooses_by_numbers() {
     assert_eq!(chosen(r#","crown_radius_mm":0.4"#, ""), Named::Point);
     assert_eq!(chosen(r#","crown_radius_mm":3"#, ""), Named::Point);
     assert_eq!(chosen(r#","crown_radius_mm":10"#, ""), Named::Point);
-    // It grows to the ends of the width.
+    // The contact grows to the ends of the width.
     assert_eq!(chosen(r#","crown_radius_mm":1000"#, ""), Named::Line);
     assert_eq!(chosen(r#","tilt_mrad":1"#, ""), Named::Line);
     // So flat that it is worn alike, of which 4e-9 mm are no part.
@@ -210,7 +210,7 @@ fn auto_chooses_by_numbers() {
         chosen(r#","crown_radius_mm":10"#, r#","output":{"fields":true}"#),
         Named::Line
     );
-    // What only a section has.
+    // A law that only a section supports.
     let powers = r#","plating":{"slider":[],"receptacle":[]},"interface":{"wear":{"slider":null,"receptacle":{"law":"rhee","wear_factor":1e-9,"pressure_exponent":1.5,"speed_exponent":1,"time_exponent":1}}}"#;
     assert_eq!(
         chosen(r#","crown_radius_mm":10"#, powers),

@@ -37,13 +37,13 @@ pub(super) async fn beat(options: RemoteOptions, leases: Leases) {
                     failures = 0;
                     let mut known = held(&leases);
                     for (lease, state) in part.iter().zip(states) {
-                        // It may have ended meanwhile.
+                        // The attempt may have ended meanwhile.
                         known.entry(*lease).and_modify(|known| *known = state);
                     }
                 }
                 Err(error) => {
                     failures += 1;
-                    // Seldom while the service is away.
+                    // Logs seldom while the service cannot be reached.
                     if failures.is_power_of_two() {
                         tracing::warn!(%error, failures, "leases could not be renewed");
                     }

@@ -145,7 +145,7 @@ async fn the_last_chunk_of_a_large_file_is_sent_only_if_all_of_it_is_right() {
             let error = response.into_body().collect().await.expect_err("damage");
             assert!(error.to_string().contains("fields-20.vtu"), "{error}");
         } else {
-            // It is known to be damaged by now.
+            // The file is marked as damaged by now.
             assert_eq!(
                 (path.ends_with("archive"), response.status().as_u16()),
                 (true, 500)
