@@ -32,7 +32,7 @@ pub struct PlannedEffect {
     pub effect: String,
     /// The decision.
     pub decision: Decision,
-    /// What the value is, in words and symbols.
+    /// Definition of the value, in words and symbols.
     #[serde(default)]
     pub indicator: String,
     /// How much the effect changes the outputs, relative: the larger value of the unworn contact and of the estimated end.
@@ -90,7 +90,7 @@ pub struct Warning {
     // Plans were stored with the name that faults have.
     #[serde(alias = "pointer")]
     pub field: String,
-    /// What is unusual, and what is likely meant.
+    /// The unusual value, and the one that is likely meant.
     pub detail: String,
 }
 

@@ -7,7 +7,7 @@ use crate::spec::{Criterion, Spec};
 /// A rated life, and the coefficients that it implies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Rating {
-    /// What ends the life.
+    /// Criterion that ends the life.
     pub criterion: Criterion,
     /// The rated cycles.
     pub rated_cycles: u64,
@@ -15,7 +15,7 @@ pub struct Rating {
     pub failing: f64,
     /// Life of the median contact that the rating implies, by the scatter of the specification, cycles.
     pub median_cycles: f64,
-    /// What the given coefficients are multiplied by.
+    /// Factor on the given coefficients.
     pub factor: f64,
     /// Each coefficient.
     pub coefficients: Vec<Coefficient>,
@@ -41,7 +41,7 @@ pub struct Coefficient {
 /// A run that the coefficients were found by.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RatingRun {
-    /// What the given coefficients were multiplied by.
+    /// Factor on the given coefficients.
     pub factor: f64,
     /// Cycles until the criterion was reached; if it was not, the cycles of the run in proportion to how far it was.
     pub cycles: f64,

@@ -54,7 +54,7 @@ pub struct LabelInUse {
     pub jobs: u64,
 }
 
-/// What waits and runs: what processes that place workers need to know.
+/// Demand for workers, as processes that place workers request it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct Demand {
     /// Jobs that wait.

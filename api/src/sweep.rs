@@ -68,7 +68,7 @@ pub struct RefusedChanges {
     /// The changes against the base.
     #[schema(value_type = BTreeMap<String, Value>)]
     pub overrides: Changes,
-    /// What is wrong with them.
+    /// Fault of the changes.
     pub reason: String,
 }
 

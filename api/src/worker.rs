@@ -10,7 +10,7 @@ use crate::service::Workers;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NewWorkerToken {
-    /// What it is for, such as the name of a cluster: 1 to 100 characters, not all of them blank, none U+0000.
+    /// Purpose, such as the name of a cluster: 1 to 100 characters, not all of them blank, none U+0000.
     #[schema(
         min_length = 1,
         max_length = 100,
@@ -24,7 +24,7 @@ pub struct NewWorkerToken {
 pub struct WorkerToken {
     /// Id.
     pub id: Uuid,
-    /// What it is for.
+    /// Purpose, such as the name of a cluster.
     pub name: String,
     /// When it was made.
     pub created_at: String,

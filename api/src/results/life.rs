@@ -7,13 +7,13 @@ use crate::enum_value::string_enum;
 use crate::spec::Criterion;
 
 string_enum! {
-    /// Whether a criterion was reached.
+    /// Status of a criterion at the end of a run.
     LifeStatus {
-        /// It was.
+        /// The criterion was reached.
         Reached = "reached",
-        /// It was not within the cycles of the run.
+        /// The criterion was not reached within the cycles of the run.
         NotReached = "not_reached",
-        /// What it is about is not simulated.
+        /// The quantity of the criterion is not simulated.
         NotModelled = "not_modelled",
     }
 }
@@ -25,7 +25,7 @@ pub struct LifeEntry {
     pub criterion: Criterion,
     /// The side, `slider` or `receptacle`; null for the contact as a whole.
     pub side: Option<String>,
-    /// Whether it was reached.
+    /// Status of the criterion.
     pub status: LifeStatus,
     /// Cycles after which it was reached, interpolated between computed ones; null for a continuous motion.
     pub cycles: Option<f64>,
@@ -43,11 +43,11 @@ pub struct LifeEntry {
     /// Scatter of these cycles, of a continuous motion that of the distance in mm; null where it was not reached, and where `reason`
     /// says that none is known.
     pub band: Option<LifeBand>,
-    /// What the criterion compares, at the end of the run: a worn depth in mm, a part of the scar or a resistance in mOhm.
+    /// Quantity of the criterion at the end of the run: a worn depth in mm, a part of the scar or a resistance in mOhm.
     pub value: Option<f64>,
     /// Limit, in the same unit.
     pub limit: Option<f64>,
-    /// What was missing, in words.
+    /// Reason for the status, or for a missing band, in words.
     pub reason: Option<String>,
 }
 
@@ -60,6 +60,6 @@ pub struct LifeBand {
     pub b50: f64,
     /// Of nine tenths.
     pub b90: f64,
-    /// What the first of `contacts` independent contacts does not survive in a tenth of all connectors.
+    /// Cycles or mm that the first of `contacts` independent contacts does not survive in a tenth of all connectors.
     pub first_of_contacts_b10: f64,
 }

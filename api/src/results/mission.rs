@@ -38,7 +38,7 @@ pub struct BlockSide {
 /// Wear of a block of a mission.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct BlockSummary {
-    /// What has been done of it.
+    /// Computed part of the block.
     #[serde(flatten)]
     pub extent: BlockExtent,
     /// Energy dissipated by friction, mJ per mm of depth.

@@ -222,10 +222,10 @@ pub struct Summary {
     /// How the motion was derived from a vibration, a thermal cycle or an insertion.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<DerivedMotion>,
-    /// What each block of a mission has worn, in their order.
+    /// Wear of each block of a mission, in their order.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub mission: Vec<BlockSummary>,
-    /// What the result is to be read with, in words: errors beyond the tolerance.
+    /// Warnings about the result, in words: errors beyond the tolerance.
     #[serde(default)]
     pub warnings: Vec<String>,
 }

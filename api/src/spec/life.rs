@@ -44,12 +44,12 @@ pub struct LifeSettings {
         deserialize_with = "super::count::optional"
     )]
     pub contacts: Option<u64>,
-    /// What ends a life; the first exposure of every layer and of the base metal of both parts if absent.
+    /// Criteria that end a life; the first exposure of every layer and of the base metal of both parts if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub criteria: Option<Vec<Criterion>>,
 }
 
-/// What ends a life.
+/// Criterion that ends a life.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Criterion {
     /// The kind.

@@ -25,7 +25,7 @@ string_enum! {
 }
 
 string_enum! {
-    /// What carries the sections of a slider along a line.
+    /// Support of the sections of a slider along a line.
     Top {
         /// A rigid body that does not rotate: the same height everywhere.
         Rigid = "rigid",
@@ -47,7 +47,7 @@ string_enum! {
 }
 
 string_enum! {
-    /// What holds the ends of extruded bodies.
+    /// Support of the ends of extruded bodies.
     Ends {
         /// Nothing.
         Free = "free",

@@ -8,7 +8,7 @@ use super::{Criterion, CriterionKind, Part, count};
 use crate::enum_value::{EnumValue, string_enum};
 
 string_enum! {
-    /// Whether an effect is simulated.
+    /// Selects whether an effect is simulated.
     Switch {
         /// Decided by the plan.
         Auto = "auto",
@@ -48,7 +48,7 @@ pub struct Accuracy {
     /// Fixed settings, which are otherwise chosen from the tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overrides: Option<Overrides>,
-    /// Whether coarse companions estimate the run's errors, for about a quarter of its time, and a run whose depth or area is
+    /// True if coarse companions estimate the run's errors, for about a quarter of its time, and a run whose depth or area is
     /// outside of the tolerance restarts, finer, for up to about four times its time (default true).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub estimate_errors: Option<bool>,
@@ -157,7 +157,7 @@ pub struct Output {
     /// Sliding distances at which they are recorded, mm; for continuous motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub snapshots_at_distance_mm: Option<Vec<f64>>,
-    /// Whether the fields in the bodies are recorded at the snapshots; of `plane_strain`, `line`, `ring` and `extruded`.
+    /// True to record the fields in the bodies at the snapshots; of `plane_strain`, `line`, `ring` and `extruded`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fields: Option<bool>,
 }
