@@ -69,7 +69,7 @@ impl Checkpoint {
         self.as_resumable().cycle()
     }
 
-    /// It as an event.
+    /// The run of the checkpoint, as an event delivers it.
     pub(crate) fn as_resumable(&self) -> Resumable<'_> {
         match self {
             Self::Section(run) => Resumable::Section(run),

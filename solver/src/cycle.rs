@@ -73,7 +73,7 @@ pub struct Integrator<'a> {
     slope: Sides<Vec<f64>>,
     /// Wear of both surfaces, at the mean temperature of a cycle; the pair has that of the present increment.
     wear: Sides<Option<SurfaceWear>>,
-    /// What heats the contact, if something does.
+    /// Heating of the contact, if it is simulated.
     heating: Option<Heating>,
     friction: ContactFriction,
     /// Coefficients of friction at the nodes of the surfaces that it differs on, from there on too, -.

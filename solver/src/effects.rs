@@ -102,7 +102,7 @@ impl EffectsPlan {
         decision.is_some_and(|decision| decision.verdict.is_on())
     }
 
-    /// What changes the wear of surfaces, as far as it is simulated.
+    /// Effects that change the wear of surfaces, as far as they are simulated.
     pub(crate) fn surface_effects(&self) -> SurfaceEffects {
         SurfaceEffects {
             plating: self.simulates(Effect::Plating),

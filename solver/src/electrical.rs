@@ -4,7 +4,7 @@
 //! would have if all of it were like this patch (`constriction`, and the films of both metals over the area of all spots), and takes the
 //! part of the spots that it has of the length of the contact, or of the area of a point contact, so that
 //!   1/R = sum of share_i/R_i.
-//! Its parts are by the power that is dissipated in them, sum of share_i (R/R_i)^2 R_ik, and add up to R. Limiting case: one patch, the
+//! The parts of R are by the power dissipated in them, sum of share_i (R/R_i)^2 R_ik, and add up to R. Limiting case: one patch, the
 //! sum of its constrictions and films. The way through the bodies is in series (`condensation::Spreading`), by the resistivity of the
 //! bases. A single spot spreads the current along the depth of the section, too, which the bodies' part, even along it, counts again: by a
 //! few per cent of it.
@@ -94,7 +94,7 @@ impl Touching {
     }
 }
 
-/// What the next resistance depends on.
+/// State that the next resistance depends on.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct ElectricalState {
     /// The last one; `None` where it is not computed.

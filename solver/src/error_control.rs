@@ -5,10 +5,10 @@
 //! cycle jumps, and three of which each is coarser in one more of them. The run's difference from the first gives its
 //! error, the differences between the companions the shares of mesh, increments and jumps in it. A run whose estimated
 //! error exceeds the tolerance restarts once, with the settings refined that cause it; one that is still outside, or
-//! whose settings the user has given, says so in its warnings, and in its outcome where it has done all cycles. Where the
+//! whose settings the user has given, has this as a warning, and as its outcome where it has done all cycles. Where the
 //! finer run has no solution, the first one is solved again.
 //!
-//! What the companions are compared by is part of the checkpoint, so that a resumed run makes the same choices.
+//! The histories that companions are compared by are part of the checkpoint, so that a resumed run makes the same choices.
 //!
 //! In more than one thread the companions are solved beside the run.
 

@@ -109,11 +109,11 @@ pub struct Interface {
     pub spring: f64,
     /// Contact modulus E* of both bodies, MPa.
     pub modulus: f64,
-    /// What heats the contact.
+    /// Heat sources of the contact that are simulated.
     pub heated_by: HeatSources,
 }
 
-/// What heats the contact.
+/// Heat sources of the contact that are simulated.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct HeatSources {
     /// Friction.

@@ -18,7 +18,7 @@ pub trait Observer {
     fn on_refined(&mut self, _errors: &str) {}
 }
 
-/// What happened.
+/// Event of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event<'a> {
     /// A computed cycle (or cycle 0, the unworn loaded state) is done.

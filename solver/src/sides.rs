@@ -41,7 +41,7 @@ impl Side {
     }
 }
 
-/// What exists once a body.
+/// A value for each of the two bodies.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sides<T> {
     /// The slider's.

@@ -58,7 +58,7 @@ pub(crate) struct Drawn {
 }
 
 impl Drawn {
-    /// What it was drawn as, in one line.
+    /// The parameters that the scene was drawn with, in one line.
     pub(crate) fn name(&self) -> String {
         let scene = &self.scene;
         let drive = match scene.drive {

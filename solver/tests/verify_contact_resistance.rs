@@ -198,7 +198,7 @@ fn the_resistance_changes_no_wear() {
     }
 }
 
-/// What is left of the gold beside the film carries the current: the resistance magnifies every error of the width of the contact.
+/// The gold left beside the film carries the current: the resistance magnifies every error of the width of the contact.
 #[test]
 fn a_resistance_and_its_life_state_their_errors() {
     let (clean, covered) = clean_and_covered();

@@ -47,7 +47,7 @@ fn a_step_by_cycle_is_two_runs() {
     ] {
         let at = f64::from(u16::try_from(step).expect("few cycles"));
         let [low, high] = [0.4, 0.8];
-        // What the one run resolves, the other resolves as well.
+        // Both runs resolve the cycle of the step.
         scene.output.snapshots_at_cycles = vec![step];
         let first = with(&scene, constant(low));
         let mut observer = CheckpointAt(step, None);

@@ -1,4 +1,4 @@
-//! What plane strain misses: an SD card's tip as a section of 0.8 mm width and as a ball, under 0.5 N, on a pad of gold.
+//! Error of plane strain: an SD card's tip as a section of 0.8 mm width and as a ball, under 0.5 N, on a pad of gold.
 //!
 //! ```text
 //!   section: (4/3) h sqrt(2 R h) w = k F s          ball: pi R h^2 = k F s

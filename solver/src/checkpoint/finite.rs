@@ -24,7 +24,7 @@ pub struct FiniteRun<S> {
     pub(crate) life: Life,
     /// Resistance of the contact, and what the next one depends on.
     pub(crate) electrical: ElectricalState,
-    /// What error control knows from the runs of this scene before this one.
+    /// Earlier runs of this scene, for error control.
     pub(crate) earlier: EarlierRuns,
 }
 

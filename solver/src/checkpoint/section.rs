@@ -38,7 +38,7 @@ pub struct SectionRun {
     pub(crate) life: Life,
     /// Resistance of the contact, and what the next one depends on.
     pub(crate) electrical: ElectricalState,
-    /// What error control knows from the runs of this scene before this one.
+    /// Earlier runs of this scene, for error control.
     pub(crate) earlier: EarlierRuns,
 }
 
@@ -52,7 +52,7 @@ impl SectionRun {
         model.with_zones_widened(self.widened)
     }
 
-    /// Goes back to an earlier state for effects that were skipped.
+    /// Restores an earlier state for effects that were skipped.
     pub(crate) fn go_back(&mut self, to: CycleState, called_for: Vec<Crossing>) {
         self.state = to;
         self.crossings.extend(called_for);

@@ -111,7 +111,7 @@ fn strokes(scene: &Scene) -> Vec<Stroke> {
         .collect()
 }
 
-/// What a rider and a receptacle that both wear have in common.
+/// Quantities of a rider and a receptacle that both wear.
 #[derive(Debug, Clone, Copy)]
 struct Shared {
     /// Half-width of the rider's flat, mm.

@@ -16,7 +16,7 @@ use crate::mesh::columns::Cell;
 use crate::model::{BodyModel, ZoneModel};
 use crate::sides::Side;
 
-/// What holds the far face of a body.
+/// Boundary condition on the far face of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FarFace {
     /// All displacements are zero.
@@ -40,7 +40,7 @@ pub fn harmonic_compliances(
     let zone = &body.zones[body.zone_at(0.0)];
     let body = side.name();
     let mut compliances = Vec::with_capacity(waves.len());
-    // What waves under the same far face share.
+    // Waves under the same far face share the numbering, the load and the pattern.
     for same in waves.chunk_by(|one, next| one.1 == next.1) {
         let unknown = numbered(zone, same[0].1);
         let load = load(zone, (&unknown, side), half_width);

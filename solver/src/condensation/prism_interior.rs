@@ -1,6 +1,6 @@
-//! The factored stiffness of the prisms of a zone: condenses onto the contact nodes, and gives the displacements of all nodes back.
+//! The factored stiffness of the prisms of a zone: condenses onto the contact nodes, and returns the displacements of all nodes.
 //!
-//! It takes several times the memory of the condensed response, and is factored again, with the analysed pattern, where fields are asked for.
+//! The factor takes several times the memory of the condensed response, and is computed again, with the analysed pattern, for fields.
 
 use std::sync::Arc;
 

@@ -97,7 +97,7 @@ impl MissionState {
         }
     }
 
-    /// What each block has worn so far.
+    /// Wear of each block so far.
     pub(crate) fn wear(
         &self,
         state: &CycleState,

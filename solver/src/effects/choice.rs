@@ -136,7 +136,7 @@ fn heat_counts(scene: &Scene) -> bool {
         || laws.into_iter().flatten().any(|law| law.heated(1.0) != law)
 }
 
-/// What the specification lacks of an effect that matters.
+/// Names the input that a specification lacks for an effect that matters.
 fn missing_input(scene: &Scene, effect: Effect) -> Option<&'static str> {
     let unknown = [&scene.slider.softening, &scene.receptacle.softening].map(Softening::is_unknown);
     match (effect, unknown) {
@@ -160,7 +160,7 @@ fn missing_input(scene: &Scene, effect: Effect) -> Option<&'static str> {
     }
 }
 
-/// What a scene lacks of heat that could matter, or is to be simulated.
+/// Names the input that a scene lacks for heat that could matter, or is to be simulated.
 fn missing_heat(
     scene: &Scene,
     indicators: &Indicators<'_>,

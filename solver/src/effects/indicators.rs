@@ -37,7 +37,7 @@ const LOST_AT_WALLS: f64 = 5.0;
 /// Distance of 20 °C to the melting temperature of tin, K.
 const TIN_K: f64 = 211.9;
 
-/// What the indicators of a scene depend on besides its worn depths.
+/// Inputs of the indicators of a scene, besides its worn depths.
 pub(super) struct Indicators<'a> {
     scene: Cow<'a, Scene>,
     /// Indicators of the blocks of a mission; none without a mission.
@@ -348,7 +348,7 @@ impl<'a> Indicators<'a> {
 
     /// The more it wears beside the other body, the more it changes.
     fn wear(&self, side: Side, depth: Sides<f64>) -> f64 {
-        // Its worn depth decides about the friction.
+        // The worn depth of the side decides about the friction.
         if self.scene.friction.follows_wear_of(side) {
             return 1.0;
         }

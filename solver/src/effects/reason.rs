@@ -10,7 +10,7 @@ use crate::law::elastic::contact_modulus;
 use crate::scene::{Dimension, Scene};
 use crate::sides::{Side, Sides};
 
-/// What a decision was made by.
+/// Basis of a decision about an effect.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum DecisionBasis {
     /// There is nothing to simulate.
@@ -143,7 +143,7 @@ pub(super) fn reason(
     )
 }
 
-/// What the distribution of the load across the width is in a dimension.
+/// Describes the distribution of the load across the width in a dimension.
 fn across_width(scene: &Scene, indicators: &Indicators<'_>) -> String {
     match scene.dimension {
         Dimension::Point(_) => format!(
@@ -263,7 +263,7 @@ pub(super) fn required_by_run(cycle: u64, value: Option<f64>) -> String {
     }
 }
 
-/// What follows from simulating an effect or leaving it out.
+/// Describes the consequence of simulating an effect or leaving it out.
 fn consequence(effect: Effect, is_on: bool) -> &'static str {
     match (effect, is_on) {
         (Effect::Elasticity, _) => "both bodies deform",

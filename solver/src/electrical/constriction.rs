@@ -78,7 +78,7 @@ const NOTHING: Conductor = Conductor {
     thickness_mm: 0.0,
 };
 
-/// What is left of metals from a depth down, mm.
+/// Conductors of the metals that are left below a depth, mm.
 fn conductors<'a>(
     left: &[Metal],
     depth: f64,

@@ -76,7 +76,7 @@ fn cost_powers(scene: &Scene) -> [f64; 3] {
     }
 }
 
-/// Whether mesh, increments and jumps are chosen by the run.
+/// Checks which of mesh, increments and jumps are chosen by the run.
 fn free_settings(scene: &Scene) -> [bool; 3] {
     let Accuracy {
         contact_element_mm: element,

@@ -35,7 +35,7 @@ pub(super) struct CompanionThreads<'scope, 'env> {
     ended: BTreeMap<usize, Solved>,
 }
 
-/// What all threads know.
+/// State that all threads share.
 struct Common {
     /// Number of the next companion, and the checkpoint that it is resumed from.
     next: Mutex<(usize, Option<Checkpoint>)>,
@@ -44,7 +44,7 @@ struct Common {
     stopped: AtomicBool,
 }
 
-/// What a thread tells of its companion.
+/// Message of a thread about its companion.
 enum Progress {
     /// A checkpoint of the one that is waited for. The companion waits for the answer, without which it stops.
     Checkpoint(Checkpoint, Sender<ControlFlow<()>>),
@@ -204,7 +204,7 @@ impl Observer for Watched<'_> {
         let (answer, answered) = channel();
         let progress = Progress::Checkpoint(run.checkpoint(), answer);
         let sent = self.sender.send(progress);
-        // What has not been received is dropped with the run, and the answer with it.
+        // A message that was not received is dropped with the run, and the channel of its answer too.
         let flow = sent.ok().and_then(|()| answered.recv().ok());
         flow.unwrap_or(ControlFlow::Break(()))
     }

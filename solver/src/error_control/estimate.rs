@@ -12,7 +12,7 @@ use crate::scene::{Refinement, Scene};
 /// Safety factor (Roache's for three grids).
 const SAFETY: f64 = 1.25;
 
-/// What an estimate of one quantity is made with.
+/// Constants of the error estimate of one quantity.
 #[derive(Clone, Copy)]
 struct Constants {
     /// Order p of mesh and increments.

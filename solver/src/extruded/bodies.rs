@@ -19,7 +19,7 @@ pub(super) struct Bodies {
     pub(super) models: Vec<Model>,
     pub(super) operators: ExtrudedOperators,
     pub(super) shares: Vec<f64>,
-    /// What the operators were built for.
+    /// Worn depths that the operators were built for, mm.
     built: Vec<Sides<Vec<f64>>>,
     widenings: u32,
 }

@@ -27,7 +27,7 @@ pub(crate) struct ExtrudedIntegrator {
     bodies: Bodies,
     contact: Contact,
     common: Common,
-    /// What the last computed cycle has recorded.
+    /// Record of the last computed cycle.
     record: LineRecord,
 }
 

@@ -19,7 +19,7 @@ pub struct ExtrudedScene {
     pub layers: usize,
     /// Length of a layer over that of its neighbour toward the free end; 1 for even layers.
     pub growth: f64,
-    /// What holds the ends.
+    /// Boundary condition on the ends.
     pub ends: Ends,
 }
 

@@ -26,7 +26,7 @@ pub(super) struct PlaneState {
     pub(super) warm_starts: WarmStarts,
 }
 
-/// What increments change.
+/// State that increments change.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Planes {
     pub(super) states: Vec<PlaneState>,
@@ -36,7 +36,7 @@ pub(super) struct Planes {
     pub(super) mean_half_width: f64,
 }
 
-/// What all planes share between two cycles.
+/// State that all planes share between two cycles.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Common {
     /// Half-width of the unworn contact, mm.

@@ -64,7 +64,7 @@ pub struct SectionFields {
     pub stress: Vec<Stress>,
     /// Smallest determinant of the Jacobian over its mean, for every element.
     pub quality: Vec<f64>,
-    /// What the nodes on the contact surface carry, in the order of `surface`.
+    /// Fields of the nodes on the contact surface, in the order of `surface`.
     pub carried: Vec<SurfaceFields>,
 }
 

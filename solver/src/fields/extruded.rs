@@ -67,7 +67,7 @@ pub(crate) fn extruded(bodies: &ExtrudedSections<'_>) -> Result<Vec<LineFields>,
 }
 
 impl ExtrudedSections<'_> {
-    /// What the contact nodes of both bodies carry in each plane; nothing slips along the width.
+    /// Surface fields of the contact nodes of both bodies in each plane; nothing slips along the width.
     fn carried(&self, contacts: &[ContactState]) -> Vec<Sides<Vec<SurfaceFields>>> {
         let operators = (&self.operators.sections, &self.models[0].interface);
         let planes = contacts.iter().zip(&self.depths);

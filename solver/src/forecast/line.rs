@@ -53,7 +53,7 @@ pub struct LineForecast {
     pub fast_layer: f64,
 }
 
-/// What is solved for together in an increment, and condensed.
+/// Counts of solves and condensations, and the nodes that are solved for together.
 #[derive(Debug, Clone, Copy)]
 struct Solves {
     /// Solves of an increment for each followed section.

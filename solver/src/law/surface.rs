@@ -23,7 +23,7 @@ pub enum SurfaceWear {
     ByPower {
         /// Law.
         law: PowerLaw,
-        /// What adds during an increment; nothing outside of one.
+        /// Exposure during an increment; zero outside of one.
         during: Exposure,
     },
 }

@@ -20,12 +20,12 @@ pub(super) struct LowRank {
     pub(super) rank: usize,
 }
 
-/// What blocks are approximated to.
+/// Accuracy of the approximation of blocks.
 #[derive(Debug, Clone, Copy)]
 pub struct Approximation {
     /// Error over the norm of a block.
     pub tolerance: f64,
-    /// True if all of its entries are compared, not only what its crosses show.
+    /// True if all entries of a block are compared, not only those of its crosses.
     pub compared: bool,
     /// True if the matrix is symmetric.
     pub symmetric: bool,
@@ -244,7 +244,7 @@ fn within<'a>(
     added[begin..end].iter().copied()
 }
 
-/// What two ranges have in common.
+/// Intersection of two ranges.
 fn common(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
     let start = a.start.max(b.start);
     start..a.end.min(b.end).max(start)

@@ -44,7 +44,7 @@ pub struct BodyLayout {
     pub contact: (usize, usize),
     /// Meshes of the body: one, or one for each part of a long travel.
     pub zones: Vec<Zone>,
-    /// What they were sized by.
+    /// Sizing parameters of the zones.
     pub zone_sizes: ZoneSizes,
 }
 

@@ -53,7 +53,7 @@ impl Zone {
     }
 }
 
-/// What zones are sized by.
+/// Sizing parameters of zones.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ZoneSizes {
     /// Half-width of the widest expected contact, mm.

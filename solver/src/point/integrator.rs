@@ -191,7 +191,7 @@ impl PointIntegrator {
         wear.slider != wear.receptacle
     }
 
-    /// What the contact is computed from.
+    /// The scene that the contact is computed from.
     pub(crate) fn scene(&self) -> &PointScene {
         &self.scene
     }

@@ -206,7 +206,7 @@ mod tests {
         // One that is reached already has no life.
         assert_eq!(next(100, (2.0, 2.0)), [Some(0.0), None, None]);
         assert_eq!(next(200, (2.0, 6.0)), [Some(0.0), Some(125.0), None]);
-        // What is reached stays.
+        // A criterion that was reached stays reached.
         assert_eq!(next(300, (6.0, 1.0)), [Some(0.0), Some(125.0), None]);
         let open = life.resistance[2];
         assert!((open.value - 1.0).abs() < 1e-15 && (open.limit - 10.0).abs() < 1e-15);
@@ -264,7 +264,7 @@ mod tests {
             let apart = found.cycles.unwrap_or(0.0) - expected.unwrap_or(0.0);
             assert!(apart.abs() < 1e-6, "{found:?} {expected:?}");
         }
-        // Where wear ends at the layer's bottom, the rate before tells when it got there.
+        // Where wear ends at the layer's bottom, the time follows from the rate before.
         scene.receptacle.wear = None;
         let mut ended = Life::default();
         push(&mut ended, &scene, 50, 0.5e-3);
@@ -274,7 +274,7 @@ mod tests {
             cycles.is_some_and(|cycles| (cycles - 100.0).abs() < 1e-9),
             "{cycles:?}"
         );
-        // What is reached stays.
+        // A criterion that was reached stays reached.
         push(&mut life, &scene, 200, 5e-3);
         assert_eq!(life.criteria[0].cycles.map(f64::round), Some(100.0));
         assert!((life.criteria[0].value - 5e-3).abs() < 1e-15);

@@ -186,7 +186,7 @@ pub fn report(
     })
 }
 
-/// What a report is computed from.
+/// Inputs of a report.
 struct CycleEnd<'a> {
     scene: &'a Scene,
     model: &'a Model,

@@ -44,14 +44,14 @@ pub struct Summary {
     pub crossings: Vec<Crossing>,
     /// Life by the criteria of the scene.
     pub life: Life,
-    /// What each block of a mission has worn; none without a mission.
+    /// Wear of each block of a mission; empty without a mission.
     pub blocks: Vec<BlockWear>,
     /// Histories that errors are estimated by.
     pub compared: Compared,
 }
 
 impl Summary {
-    /// What each block of a mission has worn; the whole run without a mission.
+    /// Wear of each block of a mission; of the whole run without a mission.
     pub fn block_wear(&self) -> Vec<BlockWear> {
         if !self.blocks.is_empty() {
             return self.blocks.clone();

@@ -1,13 +1,13 @@
 //! The body whose nodes carry the contact constraints.
 //!
-//! It is not one that is nearly rigid: only the other one would deform under a pressure that alternates from node to
+//! A nearly rigid body is not chosen: only the other one would deform under a pressure that alternates from node to
 //! node, and between its own nodes not even that. Wear levels such a pressure as soon as it removes as much in an
 //! increment as the other body deforms; a receptacle is worn by many cycles in each increment, at most by all of them.
 
 use crate::scene::Scene;
 use crate::sides::{Side, Sides};
 
-/// Chooses it for specific wear rates in 1/MPa, elements of a size, increments of a slip, and a path of all cycles, mm.
+/// Chooses the body for specific wear rates in 1/MPa, elements of a size, increments of a slip, and a path of all cycles, mm.
 pub(super) fn choose(
     scene: &Scene,
     rates: Sides<f64>,

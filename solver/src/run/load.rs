@@ -22,7 +22,7 @@ pub(super) struct Loaded {
     pub(super) model: Model,
     pub(super) condensed: Condensed,
     pub(super) run: SectionRun,
-    /// Whether the observer has stopped the run.
+    /// `Break` if the observer has stopped the run.
     pub(super) flow: ControlFlow<()>,
 }
 

@@ -13,14 +13,14 @@ use crate::scene::Scene;
 use crate::schedule::stops;
 use crate::sides::Sides;
 
-/// What evaluates the resistance of the contact, if the plan has it.
+/// Prepares the evaluation of the contact resistance, if the plan has it.
 pub(super) fn evaluation<'a>(scene: &'a Scene, plan: &EffectsPlan) -> Option<Evaluation<'a>> {
     let electrical = scene.conduction.known()?;
     plan.simulates(Effect::Resistance)
         .then(|| Evaluation::new(electrical))
 }
 
-/// What the resistance after a computed cycle has the run do.
+/// Action of the run that the resistance after a computed cycle requires.
 pub(super) enum Consequence {
     /// Go to a cycle instead: a limit of the resistance was passed in too long a step.
     GoTo(u64),

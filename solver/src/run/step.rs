@@ -11,7 +11,7 @@ use crate::run::progress::now;
 use crate::scene::{Motion, Scene};
 use crate::schedule::stops;
 
-/// What a run needs before its next cycle.
+/// Renewal that a run needs before its next cycle.
 pub(super) enum Renewal {
     /// The stiffness of the bodies: the geometry has drifted, or the contact has outgrown its zones.
     Stiffness,
@@ -21,7 +21,7 @@ pub(super) enum Renewal {
     Motion,
 }
 
-/// What a step led to.
+/// Result of a step.
 pub(super) enum Step {
     /// A computed cycle, and the state before it.
     Cycle(Box<CycleState>, Box<CycleRecord>),

@@ -16,7 +16,7 @@ pub enum Dimension {
     Extruded(Extruded),
 }
 
-/// What a point contact has beyond its section.
+/// Parameters of a point contact beyond its section.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Point {
     /// Normal force F, N.
@@ -25,12 +25,12 @@ pub struct Point {
     pub radius_across_mm: Sides<Option<f64>>,
 }
 
-/// What a contact along a line has beyond its section.
+/// Parameters of a contact along a line beyond its section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
     /// Shape of the line.
     pub shape: LineShape,
-    /// What carries the sections of the slider.
+    /// Support of the sections of the slider.
     pub top: Top,
     /// Normal force F on the whole line, N.
     pub force_n: f64,
@@ -39,7 +39,7 @@ pub struct Line {
     pub stations: Option<usize>,
 }
 
-/// What bodies drawn out over a width have beyond their section.
+/// Parameters of extruded bodies beyond their section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extruded {
     /// Width w of both bodies, mm.
@@ -48,11 +48,11 @@ pub struct Extruded {
     pub layers: usize,
     /// Length of a layer over that of its neighbour toward the end; 1 for even layers.
     pub layer_growth: f64,
-    /// What holds the ends.
+    /// Boundary condition on the ends.
     pub ends: Ends,
 }
 
-/// What holds the ends of extruded bodies.
+/// Boundary condition on the ends of extruded bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ends {
     /// `u_z` of every node is zero: plane strain.
@@ -91,7 +91,7 @@ pub enum RingMotion {
     Torsion,
 }
 
-/// What carries the sections of the slider.
+/// Support of the sections of the slider.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Top {
     /// The same line load everywhere.
@@ -103,7 +103,7 @@ pub enum Top {
 }
 
 impl Dimension {
-    /// What a point contact has beyond its section, if it is one.
+    /// Parameters of a point contact, if the scene has one.
     pub fn point(&self) -> Option<&Point> {
         match self {
             Self::Point(point) => Some(point),
@@ -111,7 +111,7 @@ impl Dimension {
         }
     }
 
-    /// What a contact along a line has beyond its section, if it is one.
+    /// Parameters of a contact along a line, if the scene has one.
     pub fn line(&self) -> Option<&Line> {
         match self {
             Self::Line(line) => Some(line),
@@ -119,7 +119,7 @@ impl Dimension {
         }
     }
 
-    /// What bodies drawn out over a width have beyond their section, if it is these.
+    /// Parameters of extruded bodies, if the scene has them.
     pub fn extruded(&self) -> Option<&Extruded> {
         match self {
             Self::Extruded(extruded) => Some(extruded),

@@ -20,7 +20,7 @@ macro_rules! effects {
                 match self { $(Self::$effect => $name,)+ }
             }
 
-            /// What its indicator is, in words and symbols.
+            /// Definition of the indicator, in words and symbols.
             pub fn indicator(self) -> &'static str {
                 match self { $(Self::$effect => $indicator,)+ }
             }

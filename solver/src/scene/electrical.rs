@@ -7,16 +7,16 @@ use crate::sides::Sides;
 /// Most metals of a side: its layers and its base.
 pub const MOST_METALS: usize = MOST_LAYERS + 1;
 
-/// What a scene says about the contact as a conductor.
+/// Electrical properties of the contact in a scene, as far as they are known.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Conduction {
-    /// All that its resistance follows from.
+    /// All properties that the resistance follows from.
     Known(Box<Electrical>),
     /// Something is missing.
     Unknown {
-        /// What, in words.
+        /// The missing input, in words.
         missing: &'static str,
-        /// True if the resistance is asked for.
+        /// True if the resistance is requested.
         is_asked_for: bool,
     },
 }

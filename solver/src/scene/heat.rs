@@ -96,7 +96,7 @@ impl Scene {
         known.sliding_heat(half_width_mm, MEAN_OF_LOGARITHM * real_cycles(self.cycles))
     }
 
-    /// What the temperature of the contact, or its effect on the wear, lacks.
+    /// Names the input that the temperature of the contact, or its effect on the wear, lacks.
     pub(crate) fn heat_lacks(&self, by_friction: bool) -> Option<&'static str> {
         let (slider, receptacle) = (&self.slider, &self.receptacle);
         if by_friction && (slider.thermal.is_none() || receptacle.thermal.is_none()) {

@@ -1,6 +1,6 @@
 //! Mission: blocks of different reciprocating or periodic motions, repeated as a whole.
 //!
-//! It is done in rounds, in each of which every block has some cycles, one block after the other. In order a round is a repetition.
+//! A mission is done in rounds, in each of which every block has some cycles, in turn. In order a round is a repetition.
 //! Mixed, the cycles of all repetitions are spread evenly over R rounds: of n cycles in all a block has done
 //!   floor(r n/R + 1/2)
 //! after r rounds (Bresenham 1965), so that all of them are done after R; a block with fewer cycles than there are rounds is

@@ -17,7 +17,7 @@ impl Switches {
         self
     }
 
-    /// Whether an effect is on or off; `None` where the plan decides.
+    /// True for an effect that is forced on, false for one forced off; `None` where the plan decides.
     pub fn of(&self, effect: Effect) -> Option<bool> {
         let mut forced = self.forced.iter();
         forced

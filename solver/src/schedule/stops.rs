@@ -24,7 +24,7 @@ pub enum Outcome {
     Stopped,
 }
 
-/// What stops depend on.
+/// Quantities that stops depend on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Progress {
     /// Physical cycles done.
@@ -254,7 +254,7 @@ mod tests {
         assert_eq!(passed((1_000, 2_000), (2.0, 11.0)), Some(1_500));
         assert_eq!(passed((1_000, 1_002), (2.0, 1e9)), Some(1_001));
         assert_eq!(passed((1_000, 1_001), (2.0, 1e9)), None);
-        // What was passed before does not count.
+        // A limit that was passed before does not count.
         assert_eq!(passed((1_000, 2_000), (12.0, 34.0)), None);
         let life = of(&[], &[10.0, 20.0]);
         let passed = |cycles, resistances| resistance_passed(&life, cycles, resistances);

@@ -1,4 +1,4 @@
-//! What sections in plane strain do not know of each other: a line load that varies along the line, P = sum_n P_n cos(n pi s/l), lifts the
+//! Coupling of sections in plane strain by their line loads: one that varies along the line, P = sum_n P_n cos(n pi s/l), lifts the
 //! section at s, against one alone, by
 //!   e(s) = sum_n delta_n P_n cos(n pi s/l),  delta_n = C_n - C_0,
 //! C_n the compliance of both bodies under the wave (`condensation::harmonic`), C_0 that of an even load with both far faces held. n = 0

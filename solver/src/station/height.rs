@@ -15,7 +15,7 @@ pub(super) struct Found {
 /// The common height of the sections under one top.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Height {
-    /// It, mm; that of the lowest station.
+    /// Height of the lowest station, mm.
     pub(super) mm: f64,
     /// Change in the last increment, mm, and the cycles that this stood for.
     pub(super) change: f64,

@@ -45,7 +45,7 @@ pub(crate) struct LineIntegrator {
     amplitude_mm: f64,
     unworn: Arc<Section>,
     line: Line,
-    /// What the last computed cycle has recorded.
+    /// Record of the last computed cycle.
     record: LineRecord,
     threads: Arc<Threads>,
 }

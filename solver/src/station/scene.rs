@@ -18,7 +18,7 @@ pub struct StationScene {
     pub section: Scene,
     /// The line.
     pub line: LineShape,
-    /// What carries the sections.
+    /// Support of the sections.
     pub top: Top,
     /// Normal force F on the whole line, N.
     pub force_n: f64,

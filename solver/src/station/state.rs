@@ -39,7 +39,7 @@ pub(super) struct StationState {
     pub(super) work: Work,
 }
 
-/// What all stations share.
+/// State that all stations share.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Common {
     /// Height of a rigid top.

@@ -45,7 +45,7 @@ impl fmt::Display for Deviation {
     }
 }
 
-/// Replaces the deviations kept of each quantity by larger ones.
+/// Replaces the stored deviations of each quantity by larger ones.
 pub(super) fn keep_worst(worst: &mut Vec<Deviation>, deviations: Vec<Deviation>) {
     let share = |deviation: &Deviation| deviation.found / deviation.allowed.max(f64::MIN_POSITIVE);
     for deviation in deviations {
@@ -57,7 +57,7 @@ pub(super) fn keep_worst(worst: &mut Vec<Deviation>, deviations: Vec<Deviation>)
     }
 }
 
-/// What a relation allows of each quantity.
+/// Largest deviation of each quantity that a relation allows.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Allowed {
     pub(super) depth: f64,

@@ -44,8 +44,8 @@ fn rigid_ring_sinks_alike_everywhere() {
         println!(
             "ring, rigid, {theta} deg: line load over (pi/2) (F/L) cos {early:.3} after 12 cycles, {late:.3} after 60"
         );
-        // What places near 90 degrees carry is missing elsewhere, and becomes more as the trough there grows: mostly at the turning points, so
-        // that the floor in the middle does not lose as much.
+        // The load of places near 90 degrees is missing elsewhere. It grows with the trough there, mostly at the turning points, so that
+        // the floor in the middle does not lose as much.
         assert!((early - 1.0).abs() < 0.05 && (late - 1.0).abs() < 0.1);
     }
     // The balance of the common height, 1e-9.

@@ -215,7 +215,7 @@ impl Convolution {
         {
             *value = column[i];
         }
-        // Those of a real row are real up to round-off at both ends.
+        // The spectrum of a real row is real up to round-off at both ends.
         row_spectrum[0].im = 0.0;
         if self.padded.1.is_multiple_of(2)
             && let Some(last) = row_spectrum.last_mut()

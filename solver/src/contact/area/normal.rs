@@ -51,7 +51,7 @@ pub struct NormalProblem<'a> {
     pub force_n: f64,
 }
 
-/// What a solve found besides the pressure.
+/// Result of a normal solve, besides the pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NormalSolution {
     /// Approach delta of the bodies, by deformation and wear, from where the gap is 0, mm.

@@ -43,7 +43,7 @@ pub struct TangentialError {
     pub tolerance: f64,
 }
 
-/// What an increment left besides the shear.
+/// Result of an increment, besides the shear.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slip {
     /// Slip of the slider over the receptacle, mm.

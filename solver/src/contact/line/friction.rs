@@ -1,6 +1,6 @@
 //! Coefficient of friction at the nodes of an increment.
 //!
-//! It is one value, or one at each node of the slave: the mean of what both surfaces have there (`law::friction`), the master's
+//! The coefficient is one value, or one at each slave node: the mean of both surfaces there (`law::friction`), the master's
 //! interpolated at the position of the increment. It does not change within the increment, so that Newton's Jacobian is exact.
 //!
 //! Friction opposes the slip in the tangent plane, |q| = mu p. With slip along the line besides, which is imposed, its part across the line is

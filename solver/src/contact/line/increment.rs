@@ -61,7 +61,7 @@ impl Solver {
         next: &mut ContactState,
     ) -> Result<Increment<'_>, ContactError> {
         let slider_x = to.slider_x;
-        // That of an increment without a solution does not count.
+        // Work of an increment without a solution does not count.
         self.newton.work = Work::default();
         self.response.entries = 0;
         if is_at_rest(last, to) {

@@ -1,11 +1,11 @@
-//! What the master's nodes take of a slave node's path where their wear rates differ, as those of a plating that is worn through in places.
+//! Shares of the master's nodes in a slave node's path where their wear rates differ, as those of a plating that is worn through in places.
 //!
 //! Constraints see means of the master's depths. Where each node took its share of the path by its place alone, one that is through to a base of
 //! 260 times the rate would dig a hole unseen while the nickel beside it carries the contact; dual means have negative weights, which let it dig the
 //! faster. On the scale of an element the bodies conform: all that a node of the slave faces recedes together, p_j k_j = const. Each node of the
 //! master then takes its share in proportion to 1/k_j, and the rate of the slave's node is their harmonic mean. Means have positive weights there.
 //!
-//! 1/k_j is that of the depth which the indentation would wear next, so that a node hands its part over before its layer ends.
+//! 1/k_j is that of the depth which the indentation would wear next, so that the share of a node changes before its layer ends.
 //! Planes of extruded bodies do without this.
 
 use super::mortar::Coupling;

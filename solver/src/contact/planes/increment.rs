@@ -17,7 +17,7 @@ use crate::sides::{Side, Sides};
 /// Most extensions of the active window within one increment.
 const MOST_EXTENSIONS: usize = 60;
 
-/// What an increment wears in one plane; arrays begin at the first coupled node of their side.
+/// Wear of an increment in one plane; arrays begin at the first coupled node of their side.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PlaneWear {
     /// First coupled node of each side.

@@ -20,9 +20,9 @@ const REST: f64 = 1e-12;
 /// How the rate changes with the dose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Course {
-    /// It falls toward zero (equation 1).
+    /// The rate falls toward zero (equation 1).
     Decelerating,
-    /// It grows with the depth (equation 3).
+    /// The rate grows with the depth (equation 3).
     Accelerating,
 }
 

@@ -58,7 +58,7 @@ impl Thermal {
     }
 }
 
-/// What adds to y during an increment: f p^m, times the slip in mm where it counts.
+/// Increase of y during an increment: f p^m, times the slip in mm where it counts.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Exposure {
     factor: f64,
@@ -106,7 +106,7 @@ impl PowerLaw {
         self.measure == Measure::Repetitions
     }
 
-    /// What an increment of an imposed displacement in mm adds at a pace.
+    /// Exposure of an increment of an imposed displacement in mm at a pace.
     pub fn exposure(&self, pace: Pace, distance_mm: f64) -> Exposure {
         let measure = match self.measure {
             Measure::SlipTime { .. } if pace.s_per_mm <= 0.0 => 0.0,

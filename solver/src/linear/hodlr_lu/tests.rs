@@ -104,7 +104,7 @@ fn products_and_solutions_are_those_of_the_matrix() {
     }
 }
 
-/// What the crosses show is enough for both kinds of equations, although each row is zero or constant in one of them.
+/// Cross approximation resolves both kinds of equations, although each row is zero or constant in one of them.
 #[test]
 fn a_coarse_approximation_sees_both_kinds_of_equations() {
     let order = 700;

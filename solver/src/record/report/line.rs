@@ -10,7 +10,7 @@ use crate::record::{WornSurface, scar};
 use crate::scene::Scene;
 use crate::sides::{Side, Sides};
 
-/// What a report of a contact along a line is made from.
+/// Inputs of a report of a contact along a line.
 pub(crate) struct LineEnd<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) cycle: &'a StationCycle,

@@ -10,7 +10,7 @@ use crate::record::{WornSurface, scar};
 use crate::scene::Scene;
 use crate::sides::{Side, Sides};
 
-/// What a report of a point contact is made from.
+/// Inputs of a report of a point contact.
 pub(crate) struct PointEnd<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) cycle: &'a PointCycle,

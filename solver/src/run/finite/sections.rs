@@ -18,7 +18,7 @@ use crate::scene::Scene;
 use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
 
-/// What computes the cycles of sections along a line.
+/// Sections along a line, whose cycles a run computes.
 pub(super) trait Sections: Sized {
     /// State between two computed cycles.
     type State: State;
@@ -60,7 +60,7 @@ pub(super) trait Sections: Sized {
     fn resumable(run: &FiniteRun<Self::State>) -> Resumable<'_>;
 }
 
-/// What a run reads of the state of its sections.
+/// State of sections, as a run reads it.
 pub(super) trait State: Clone {
     /// The last computed cycle.
     fn last(&self) -> &StationCycle;

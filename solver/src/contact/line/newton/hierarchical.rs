@@ -14,7 +14,7 @@ use crate::linear::{Approximation, Entries, Hodlr};
 use crate::number::count;
 use std::ops::Range;
 
-/// What the core is approximated to: chord steps and their correction do the rest. Arbitrary: 1e-2 and 1e-4 take as
+/// Accuracy of the core's approximation: chord steps and their correction do the rest. Arbitrary: 1e-2 and 1e-4 take as
 /// long, to 20 % (`cargo bench -p solver -- partial_slip`).
 const APPROXIMATION: Approximation = Approximation {
     tolerance: 1e-3,

@@ -12,7 +12,7 @@ use super::super::unknown::Unknown;
 /// takes 1.47, 1.55 and 1.58 s to 500 cycles, `mccoll.json` at 0.003 5.1, 5.2 and 5.3 s.
 const EDGE: usize = 1;
 
-/// What the unknowns of a node allow it to be.
+/// Statuses that the unknowns of a node allow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Form {
     /// Open.
