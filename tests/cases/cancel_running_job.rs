@@ -7,7 +7,7 @@ use tests::{Server, fuzz_button_with_jump};
 async fn a_cancelled_running_job_ends_soon_and_retains_its_results() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
-    // It would take longer than the test waits.
+    // The job would take longer than the test waits.
     let (_, job) = server.submit(fuzz_button_with_jump(1)).await;
     let id = job["id"].as_str().expect("a job has an id").to_owned();
     server

@@ -156,7 +156,7 @@ async fn an_interrupted_watch_leaves_the_job_running() {
     let process = Pid::from_raw(i32::try_from(watch.id()).expect("small"));
     let running = |job: &Value| job["status"] == "running";
     server.job_when(&id, running).await;
-    // Its open stream shows that it follows the job.
+    // An open stream shows that the process follows the job.
     while !has_open_stream(&server).await {
         assert!(matches!(watch.try_wait(), Ok(None)), "it has ended early");
     }
@@ -196,7 +196,7 @@ impl Proxy {
                 let port = target.load(Ordering::Relaxed);
                 forwarded.spawn(async move {
                     if let Ok(mut server) = TcpStream::connect(("127.0.0.1", port)).await {
-                        // It ends with either side.
+                        // The connection ends with either side.
                         let _ = tokio::io::copy_bidirectional(&mut client, &mut server).await;
                     }
                 });

@@ -59,7 +59,7 @@ async fn deadlines_leases_and_order_do_not_follow_steps_of_the_clock() {
     let waiting = submitted(&server, 3_600).await;
 
     clock.set_to(TWO_HOURS);
-    // Its end shows that deadlines were compared since.
+    // The end of this job shows that deadlines were compared since.
     let short = submitted(&server, 1).await;
     expired(&server, &short).await;
     progress(&server, &running).await;

@@ -105,7 +105,7 @@ fn pressures_of_all_planes_agree_with_calculix() {
             let place = (calculix::nanometres(*x), calculix::nanometres(z[plane]));
             *theirs.get(&place).expect("the same node")
         });
-        // Its pressures are linear along z; ours are nodal forces over the lengths of the planes.
+        // CalculiX's pressures are linear along z; ours are nodal forces over the lengths of the planes.
         let lumped = [(2.0 * end + middle) / 3.0, (end + 2.0 * middle) / 3.0];
         for (own, theirs) in ours.pressures_mpa.iter().zip(lumped) {
             largest = largest.max((own[node] - theirs).abs() / peak);

@@ -65,7 +65,7 @@ async fn tasks_may_panic_while_the_log_is_not_read() {
     let options = ["--workers", "2"];
     let server = Server::start_logging(folder.path(), &options, &environment, &Log::Unread);
     let server = server.expect("it serves");
-    // Its lines fill the pipe.
+    // The lines of the log fill the pipe.
     works(&server).await;
     for _ in 0..10 {
         clock.fail_once();

@@ -220,7 +220,7 @@ fn fields_of_extruded_bodies_open_in_vtk() {
     }
 }
 
-/// What a program of the reader prints of a file.
+/// Output of a program of the reader for a file.
 fn read(file: &Path, program: &str) -> String {
     let read = Command::new(env!("FRETWEAR_PYTHON"))
         .args(["-c", program])

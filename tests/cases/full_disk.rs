@@ -70,7 +70,7 @@ async fn a_full_disk_is_named_and_does_not_prevent_cancelling() {
         .job_when(running, |job| job["finished_at"].is_string())
         .await;
     assert_eq!(job["status"], "cancelled", "{job}");
-    // Its space can be freed.
+    // The space of the cancelled job can be freed.
     let path = format!("{}/v1/jobs/{running}", server.base);
     let deleted = server.client.delete(path).send().await;
     assert_eq!(deleted.expect("an answer").status(), 204);

@@ -202,7 +202,7 @@ async fn jobs_are_solved_and_read_while_the_bucket_does_not_answer() {
     moved(&server, 2).await;
     assert_eq!(bucket.objects().await, 1, "the new one is empty at first");
     assert_eq!(server.get(&history(&second)).await.0, 200);
-    // Whether it is missing is not known in a bucket without the mark.
+    // An object is not known to be missing in a bucket without the mark.
     let (status, problem) = server.get(&history(&first)).await;
     assert_eq!(status, 503, "{problem}");
     bucket.mark().await;

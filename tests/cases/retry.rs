@@ -59,7 +59,7 @@ async fn a_cancelled_job_that_is_tried_again_reaches_the_bits_of_an_uninterrupte
     let names = events(&server, &id).await;
     let done = names.iter().filter(|name| *name == "done").count();
     assert_eq!((done, names.last().map(String::as_str)), (2, Some("done")));
-    // It did not start at cycle 0 again.
+    // The second attempt did not start at cycle 0 again.
     let cycles = names.iter().filter(|name| *name == "cycle").count();
     let all = 2_000 / usize::try_from(JUMP).expect("a small number");
     assert!(cycles < all + all / 4, "{cycles} cycles for {all}");

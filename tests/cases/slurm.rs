@@ -59,7 +59,7 @@ async fn a_cluster_solves_what_waits_and_is_left_empty() {
     let mut first = pilot(&server, &slurm).spawn().expect("a pilot");
     let computes = |job: &Value| job["progress"]["cycle"].as_u64() > Some(0);
     server.job_when(&ids[0], computes).await;
-    // It submits no others.
+    // A killed pilot submits no other workers.
     first.kill().expect("it runs");
     first.wait().expect("it was started");
     slurm.lines("scancel", &["--full", "--name", "fretwear"]);
@@ -88,7 +88,7 @@ async fn a_cluster_solves_what_waits_and_is_left_empty() {
     emptied(&slurm).await;
 }
 
-/// Workers that fail, here because of their program, are submitted less and less often, and the pilot says so.
+/// Workers that fail, here because of their program, are submitted less and less often, and the pilot reports it.
 #[tokio::test]
 #[cfg_attr(
     not(has_slurm),

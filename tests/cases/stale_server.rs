@@ -41,7 +41,7 @@ async fn a_service_that_continues_after_another_finished_its_job_writes_nothing(
     let count = database::number(folder.path(), events).await;
 
     stopped.signal(Signal::SIGCONT);
-    // Its solving process may continue to its end, and the service tries to write the results, until it finds that the
+    // The solving process may continue to its end, and the service tries to write the results, until it finds that the
     // database has another owner.
     assert_eq!(stopped.wait(), Some(1), "it gives the database up");
     assert_eq!(bits::of(&server, &id).await, before);

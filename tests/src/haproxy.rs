@@ -12,7 +12,7 @@ use crate::postgres::PostgresServer;
 
 /// How often another port is tried, if another process has taken the one that was free.
 const TRIES: usize = 10;
-/// Time in which it says that its configuration is at fault, or that its address is taken.
+/// Time in which it reports a fault of its configuration, or that its address is taken.
 const START: Duration = Duration::from_millis(300);
 /// A check may take as long as a busy machine needs; a server that was killed refuses it at once.
 const DEFAULTS: &str = "defaults
@@ -107,7 +107,7 @@ impl Haproxy {
 
 impl Drop for Haproxy {
     fn drop(&mut self) {
-        // It may have ended.
+        // The process may have ended.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

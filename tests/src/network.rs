@@ -43,7 +43,7 @@ impl Network {
         network
     }
 
-    /// From now on no packet of it arrives, and nobody is told.
+    /// From now on no packet of it arrives, and nobody is notified.
     ///
     /// # Panics
     /// If it cannot be cut.
@@ -72,7 +72,7 @@ impl Network {
         self.ip(&["neigh", "del", &self.address, "dev", inner]);
     }
 
-    /// What runs a program in it, to be followed by the program and its arguments.
+    /// Command that runs a program inside the network, to be followed by the program and its arguments.
     pub fn inside(&self) -> [&str; 4] {
         ["ip", "netns", "exec", &self.name]
     }

@@ -102,7 +102,7 @@ impl PostgresServer {
 impl Drop for PostgresServer {
     fn drop(&mut self) {
         drop(self.input.take());
-        // It may have been ended by the test.
+        // The server may have been ended by the test.
         let _ = self.first.wait();
     }
 }

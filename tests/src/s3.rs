@@ -40,7 +40,7 @@ impl S3 {
     /// # Panics
     /// If it cannot be ended.
     pub fn end(&mut self) {
-        // It may have ended before.
+        // The process may have ended before.
         let _ = self.child.kill();
         self.child.wait().expect("a process that was started");
     }
@@ -58,7 +58,7 @@ impl S3 {
             address.trim().parse().ok()
         });
         let port: u16 = address.expect("it names its address");
-        // Its further output is read and discarded, so that it never blocks on a full pipe.
+        // Further output is read and discarded, so that the process never blocks on a full pipe.
         std::thread::spawn(move || lines.for_each(drop));
         let endpoint = format!("http://127.0.0.1:{port}");
         let bucket = format!("{endpoint}/{BUCKET}");

@@ -31,16 +31,16 @@ pub struct Server {
     unread: Option<Lines<BufReader<ChildStderr>>>,
 }
 
-/// What becomes of the log of a service.
+/// Destination of the log of a service.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Log {
-    /// It is read and discarded.
+    /// A pipe that is read; the lines are discarded.
     Read,
-    /// It goes to a pipe that nobody reads; all lines are written.
+    /// A pipe that nobody reads; all lines are written.
     Unread,
-    /// It goes to a pipe that is closed.
+    /// A pipe that is closed.
     Closed,
-    /// It goes to a file.
+    /// A file.
     File(PathBuf),
 }
 
@@ -71,7 +71,7 @@ impl Server {
             .env("RUST_LOG", "info")
             .envs(environment.iter().copied());
         let (server, lines) = Self::started(command);
-        // Its further output is read, so that it never blocks on a full pipe, and kept if somebody wants to see it.
+        // Further output is read, so that the service never blocks on a full pipe, and is appended to a file if one is given.
         let mut kept = std::env::var_os(KEPT).map(|path| {
             let file = File::options().create(true).append(true).open(path);
             file.expect("a file for the logs")

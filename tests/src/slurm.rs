@@ -128,7 +128,7 @@ impl Drop for Slurm {
         }
         for daemon in self.daemons.iter_mut().rev() {
             if let Ok(id) = i32::try_from(daemon.id()) {
-                // It may have ended.
+                // The daemon may have ended.
                 let _ = kill(Pid::from_raw(id), Signal::SIGTERM);
             }
             let _ = daemon.wait();

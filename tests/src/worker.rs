@@ -69,7 +69,7 @@ impl RemoteWorker {
 
 impl Drop for RemoteWorker {
     fn drop(&mut self) {
-        // It may have ended.
+        // The process may have ended.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

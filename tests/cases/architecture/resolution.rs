@@ -197,7 +197,7 @@ impl Visit<'_> for Reader<'_> {
 }
 
 impl Sources {
-    /// What a path names, seen from a module; `None` for what a module of this crate does not define.
+    /// Target of a path, seen from a module; `None` for an item that a module of this crate does not define.
     fn resolve(&self, module: usize, path: &[String], re_exports: usize) -> Option<Target> {
         let (first, rest) = path.split_first()?;
         match first.as_str() {
@@ -218,7 +218,7 @@ impl Sources {
         }
     }
 
-    /// What a path names inside a module.
+    /// Target of a path inside a module.
     fn resolve_below(&self, module: usize, path: &[String], re_exports: usize) -> Option<Target> {
         let Some((name, rest)) = path.split_first() else {
             return Some(Target::Module(module));

@@ -50,7 +50,7 @@ pub(super) struct Reference {
     pub(super) target: Target,
 }
 
-/// What a path names.
+/// Target of a path.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Target {
     /// An item, by the file that defines it and its name.

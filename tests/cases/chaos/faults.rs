@@ -138,7 +138,7 @@ impl Trial {
     fn signal_child(&mut self, signal: Signal) -> Option<Pid> {
         let children = self.server().solving();
         let child = self.rng.choice(children)?;
-        // It may have ended by itself.
+        // The process may have ended by itself.
         let _ = kill(child, signal);
         Some(child)
     }
@@ -147,7 +147,7 @@ impl Trial {
         let paused = self.signal_child(Signal::SIGSTOP);
         tokio::time::sleep(PAST_A_LEASE).await;
         if let Some(child) = paused {
-            // It may have ended meanwhile.
+            // The process may have ended meanwhile.
             let _ = kill(child, Signal::SIGCONT);
         }
     }
@@ -253,7 +253,7 @@ impl Trial {
         let away = self.folder.join("away");
         std::fs::rename(&self.results, &away).expect("renamed");
         tokio::time::sleep(moment).await;
-        // What was being written has made a folder in its place, and has failed.
+        // A write in progress has created a folder in its place, and has failed.
         let _ = std::fs::remove_dir_all(&self.results);
         std::fs::rename(&away, &self.results).expect("renamed");
     }

@@ -27,7 +27,7 @@ const DISK_MB: (usize, usize) = (64, 2);
 /// Deadline of each job, s: shorter than the steps of the clock, longer than a trial.
 const DEADLINE_S: u32 = 7_200;
 
-/// What keeps the jobs.
+/// Storage of the jobs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Engine {
     /// A file of SQLite.
@@ -55,7 +55,7 @@ pub(super) struct Trial {
     /// Where the files of results are, or their objects.
     pub(super) results: PathBuf,
     services: Vec<Service>,
-    /// Number of the service that is asked, and that faults are of.
+    /// Number of the service that gets the requests and the faults.
     hit: usize,
     pub(super) rng: Rng,
     pub(super) accepted: Vec<String>,

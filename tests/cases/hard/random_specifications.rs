@@ -30,7 +30,7 @@ const DRAWN_FOR_ONE: usize = 20;
 /// At most one run in this many may end without a result.
 const FAILURES_ONE_IN: usize = 25;
 
-/// What is drawn and checked.
+/// Kind of specifications that are drawn, and the checks of their runs.
 struct Trial {
     /// Random numbers of a draw.
     numbers: usize,
@@ -44,7 +44,7 @@ struct Trial {
     most_cycles: usize,
 }
 
-/// What the runs of a trial came to.
+/// Results of the runs of a trial.
 #[derive(Default)]
 struct Found {
     drawn: usize,

@@ -26,7 +26,7 @@ const SETTINGS: [&str; 1] = ["max_connections=200"];
 /// Seed of the order of harms.
 const SEED: u64 = 1;
 
-/// What happens to a part of the system.
+/// Fault of a part of the system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Fault {
     KillService,

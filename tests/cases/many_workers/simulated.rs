@@ -29,7 +29,7 @@ const WAIT: Duration = Duration::from_secs(2);
 /// Pause before a request without an answer is repeated.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// What the workers have done.
+/// Counts of the workers' attempts and ends.
 #[derive(Default)]
 pub(super) struct Done {
     /// Attempts of workers that have vanished, or that the machine did not let renew their lease in time.
@@ -67,7 +67,7 @@ impl Done {
     }
 }
 
-/// What happens to workers at random.
+/// Faults of workers at random.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Harm {
     None,
@@ -220,7 +220,7 @@ static DOCUMENTS: LazyLock<EncodedBlock> = LazyLock::new(|| {
     block.encode().expect("JSON")
 });
 
-/// Whether workers record nothing between claim and end.
+/// True if workers record nothing between claim and end.
 pub(super) static ENDS_ONLY: LazyLock<bool> =
     LazyLock::new(|| std::env::var_os("FRETWEAR_WORKERS_ENDS_ONLY").is_some());
 

@@ -19,7 +19,7 @@ const JOBS: usize = 1_004;
 /// Jobs of such a sweep that are queued when it is submitted.
 const AT_ONCE: u64 = 250;
 
-/// What the sweep varies.
+/// Parameters that the sweep varies.
 const CYCLES: [u32; 4] = [2, 3, 4, 5];
 const COEFFICIENT: &str = "/interface/friction/coefficient";
 const AMPLITUDE: &str = "/motion/amplitude_mm";
