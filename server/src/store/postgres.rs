@@ -4,43 +4,70 @@
 //! those that others have locked. Times are those of the database's clock. No process takes the jobs or files of another one: leases
 //! end by themselves.
 
-mod batch_endings;
-mod batches;
+mod batch_portions;
+mod batch_submissions;
 mod blocks;
-mod checkpoints;
+mod checkpoint_objects;
 mod claimed;
 pub(in crate::store) mod claims;
 mod compared;
 mod demand;
+mod dialect;
 mod durability;
-mod events;
 mod expansions;
-mod files;
 mod gauges;
-mod job_list;
-mod job_rows;
-mod jobs;
+mod insertion;
 mod leases;
-mod maintenance;
 mod migrations;
+mod new_files;
 mod notifications;
 mod object_names;
 mod objects;
 mod open;
 mod queries;
 mod reclaim;
-mod results;
 mod results_to_move;
 mod revisions;
-mod selects;
+mod submissions;
 mod transitions;
 mod updates;
+mod upkeep;
 pub(in crate::store) mod verify;
-mod worker_tokens;
-mod workers;
 mod write;
 mod writer;
 mod writes;
+
+// Statements of both engines.
+#[path = "sql/batch_endings.rs"]
+mod batch_endings;
+#[path = "sql/batches.rs"]
+mod batches;
+#[path = "sql/checkpoints.rs"]
+mod checkpoints;
+#[path = "sql/events.rs"]
+mod events;
+#[path = "sql/files.rs"]
+mod files;
+#[path = "sql/job_list.rs"]
+mod job_list;
+#[path = "sql/job_rows.rs"]
+mod job_rows;
+#[path = "sql/jobs.rs"]
+mod jobs;
+#[path = "sql/maintenance.rs"]
+mod maintenance;
+#[path = "sql/results.rs"]
+mod results;
+#[path = "sql/selects.rs"]
+mod selects;
+#[path = "sql/stored_blocks.rs"]
+mod stored_blocks;
+#[path = "sql/verified.rs"]
+mod verified;
+#[path = "sql/worker_tokens.rs"]
+mod worker_tokens;
+#[path = "sql/workers.rs"]
+mod workers;
 
 use std::time::{Duration, Instant};
 
@@ -63,7 +90,7 @@ use crate::store::{ClaimRequest, StoreError};
 pub(in crate::store) struct PostgresStore {
     pub(in crate::store) local: Local,
     /// For claims and writes, which must not wait for reads.
-    pool: PgPool,
+    writer: PgPool,
     readers: PgPool,
     claims: Groups<ClaimRequest, Result<Claimed, StoreError>>,
     writes: Writes,
@@ -78,13 +105,6 @@ pub(in crate::store) struct PostgresStore {
 }
 
 impl PostgresStore {
-    /// Begins a transaction, at a time.
-    async fn begin(&self) -> Result<(Transaction<'static, Postgres>, Now), StoreError> {
-        let mut transaction = begin(&self.pool, None).await?;
-        let now = self.now(&mut transaction).await?;
-        Ok((transaction, now))
-    }
-
     /// The present time by the clock of the database.
     async fn now(&self, connection: &mut PgConnection) -> Result<Now, StoreError> {
         match self.given_now() {

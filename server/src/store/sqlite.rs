@@ -4,38 +4,63 @@
 //! process that has ended.
 
 pub(in crate::store) mod backup;
-mod batch_endings;
-mod batches;
+mod batch_portions;
+mod batch_submissions;
 mod blocks;
-mod checkpoints;
+mod checkpoint_objects;
 mod claims;
-mod events;
+mod dialect;
 mod expansions;
-mod files;
 mod gauges;
 mod identity;
-mod job_list;
-mod job_rows;
-mod jobs;
+mod insertion;
 mod leases;
 mod lock;
-mod maintenance;
 mod migrations;
 mod moved_meanwhile;
+mod new_files;
 mod objects;
 mod open;
 mod owner;
 mod queries;
 mod reclaim;
-mod results;
 mod results_to_move;
 mod revisions;
-mod selects;
 mod space;
 mod submissions;
 mod transitions;
 pub(in crate::store) mod verify;
+
+// Statements of both engines.
+#[path = "sql/batch_endings.rs"]
+mod batch_endings;
+#[path = "sql/batches.rs"]
+mod batches;
+#[path = "sql/checkpoints.rs"]
+mod checkpoints;
+#[path = "sql/events.rs"]
+mod events;
+#[path = "sql/files.rs"]
+mod files;
+#[path = "sql/job_list.rs"]
+mod job_list;
+#[path = "sql/job_rows.rs"]
+mod job_rows;
+#[path = "sql/jobs.rs"]
+mod jobs;
+#[path = "sql/maintenance.rs"]
+mod maintenance;
+#[path = "sql/results.rs"]
+mod results;
+#[path = "sql/selects.rs"]
+mod selects;
+#[path = "sql/stored_blocks.rs"]
+mod stored_blocks;
+#[path = "sql/verified.rs"]
+mod verified;
+#[path = "sql/worker_tokens.rs"]
 mod worker_tokens;
+#[path = "sql/workers.rs"]
 mod workers;
 
 use std::path::PathBuf;

@@ -1,38 +1,10 @@
-//! Blocks of results of ended jobs.
+//! Blocks of results of jobs that end.
 
 use sqlx::postgres::PgConnection;
 use uuid::Uuid;
 
 use crate::store::StoreError;
 use crate::store::block::EncodedBlock;
-use crate::store::postgres::PostgresStore;
-use crate::store::stored_block::StoredBlock;
-
-/// Reads the block of a job; `None` if it has none.
-pub(super) async fn stored_block(
-    connection: &mut PgConnection,
-    id: Uuid,
-) -> Result<Option<StoredBlock>, sqlx::Error> {
-    let found = sqlx::query_as(
-        "SELECT entries, content, object, content_bytes FROM result_blocks WHERE job_id = $1",
-    )
-    .bind(id)
-    .fetch_optional(connection)
-    .await?;
-    Ok(found.map(|(entries, content, key, content_bytes)| {
-        StoredBlock::new(entries, content, key, content_bytes)
-    }))
-}
-
-impl PostgresStore {
-    pub(in crate::store) async fn stored_block(
-        &self,
-        id: Uuid,
-    ) -> Result<Option<StoredBlock>, StoreError> {
-        let mut connection = self.readers.acquire().await?;
-        Ok(stored_block(&mut connection, id).await?)
-    }
-}
 
 /// The block of a job that ends.
 #[derive(Debug, Clone, Copy)]
@@ -92,15 +64,4 @@ pub(super) async fn insert_blocks(
         .await?;
     }
     Ok(())
-}
-
-/// Returns the compressed entries of a job's block; `None` if it has none.
-pub(super) async fn entries(
-    connection: &mut PgConnection,
-    id: Uuid,
-) -> Result<Option<Vec<u8>>, sqlx::Error> {
-    sqlx::query_scalar("SELECT entries FROM result_blocks WHERE job_id = $1")
-        .bind(id)
-        .fetch_optional(connection)
-        .await
 }

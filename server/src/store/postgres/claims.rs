@@ -38,7 +38,7 @@ impl PostgresStore {
     ) -> Result<Vec<Claim>, StoreError> {
         self.local.disk.check()?;
         let given = self.given_now();
-        let write = |group| write(self.pool.clone(), given, group);
+        let write = |group| write(self.writer.clone(), given, group);
         let claimed = self.claims.ask(*request, write).await;
         let Claimed { claims, reasoned } = claimed.unwrap_or(Err(StoreError::Unwritten))?;
         for id in claims.iter().map(|claim| claim.id).chain(reasoned) {

@@ -11,7 +11,7 @@ use crate::store::gauges::UNKNOWN_CPU_MS;
 use crate::store::job_ids::new_id;
 use crate::store::new_row::{NewRow, estimated};
 use crate::store::postgres::PostgresStore;
-use crate::store::postgres::job_rows::insert;
+use crate::store::postgres::insertion::insert;
 use crate::store::rows::integer;
 
 /// Jobs that a statement adds: their specifications, of up to a megabyte each, are in memory. Arbitrary.

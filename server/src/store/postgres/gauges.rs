@@ -67,7 +67,7 @@ impl PostgresStore {
             "INSERT INTO probes (name, written_at) VALUES ('ready', fretwear_now()) \
              ON CONFLICT (name) DO UPDATE SET written_at = excluded.written_at",
         )
-        .execute(&self.pool)
+        .execute(&self.writer)
         .await?;
         *last = Some(Instant::now());
         Ok(())

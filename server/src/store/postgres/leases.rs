@@ -9,9 +9,10 @@ use uuid::Uuid;
 
 use crate::queue::Transition;
 use crate::store::ending::EndingJob;
+use crate::store::postgres::checkpoint_objects::delete_results_after;
 use crate::store::postgres::queries::insert_attempt_event;
 use crate::store::postgres::write::Effect;
-use crate::store::postgres::{PostgresStore, begin, checkpoints};
+use crate::store::postgres::{PostgresStore, begin};
 use crate::store::{End, JobUpdate, Lease, LeaseState, StoreError, Write, WriteKind};
 
 impl PostgresStore {
@@ -82,7 +83,7 @@ impl PostgresStore {
         length: Duration,
         token: Option<Uuid>,
     ) -> Result<Vec<LeaseState>, StoreError> {
-        let mut connection = self.pool.acquire().await?;
+        let mut connection = self.writer.acquire().await?;
         let now = self.now(&mut connection).await?;
         let ids: Vec<_> = leases.iter().map(|lease| lease.job).collect();
         let numbers: Vec<_> = leases.iter().map(|lease| lease.number).collect();
@@ -132,7 +133,7 @@ impl PostgresStore {
         &self,
         lease: impl Into<Lease>,
     ) -> Result<LeaseState, StoreError> {
-        let mut connection = self.pool.acquire().await?;
+        let mut connection = self.writer.acquire().await?;
         let held = held(&mut connection, lease.into()).await?;
         Ok(LeaseState::of(
             held.map(|(_, cancel_requested)| cancel_requested),
@@ -146,7 +147,7 @@ impl PostgresStore {
     ) -> Result<LeaseState, StoreError> {
         self.local.disk.check()?;
         let lease = lease.into();
-        let mut transaction = begin(&self.pool, None).await?;
+        let mut transaction = begin(&self.writer, None).await?;
         let restarted: Option<(i64, bool, i64)> = sqlx::query_as(
             "UPDATE jobs SET last_write = $1, last_event = last_event + 1, version = version + 1, fruitless = GREATEST(fruitless, 1) \
              WHERE id = $2 AND lease = $3 AND status = 'running' AND last_write < $1 \
@@ -162,7 +163,7 @@ impl PostgresStore {
             return Ok(self.local.written_before(lease, number, held));
         };
         let attempt = attempt.try_into().unwrap_or_default();
-        checkpoints::delete_results_after(&mut transaction, lease.job, None).await?;
+        delete_results_after(&mut transaction, lease.job, None).await?;
         insert_attempt_event(&mut transaction, lease.job, event, attempt, 0).await?;
         transaction.commit().await?;
         self.local.changed(lease.job);
@@ -200,7 +201,7 @@ impl PostgresStore {
         let lease = lease.into();
         let fruitless: Option<i64> = sqlx::query_scalar("SELECT fruitless FROM jobs WHERE id = $1")
             .bind(lease.job)
-            .fetch_optional(&self.pool)
+            .fetch_optional(&self.writer)
             .await?;
         let fruitless = fruitless.unwrap_or_default().try_into().unwrap_or_default();
         let limit = self.local.attempt_limit;

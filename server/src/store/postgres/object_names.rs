@@ -39,7 +39,7 @@ impl PostgresStore {
     /// Names objects in one transaction; returns the jobs whose results are still those that their objects have. Objects that are being
     /// removed are not named.
     async fn name_together(&self, moved: &[Moved]) -> Result<Vec<Uuid>, StoreError> {
-        let mut transaction = begin(&self.pool, None).await?;
+        let mut transaction = begin(&self.writer, None).await?;
         lock(&mut transaction, moved).await?;
         let noted = forget(&mut transaction, moved).await?;
         let (noted, mut unnamed): (Vec<&Moved>, Vec<_>) = moved

@@ -19,14 +19,14 @@ impl PostgresStore {
              OR EXISTS (SELECT 1 FROM checkpoints WHERE object IS NOT NULL) OR EXISTS (SELECT 1 FROM result_files WHERE object IS NOT NULL) \
              OR is_marked AND EXISTS (SELECT 1 FROM unnamed_objects)",
         );
-        Ok(stored.fetch_optional(&self.pool).await?)
+        Ok(stored.fetch_optional(&self.writer).await?)
     }
 
     pub(in crate::store) async fn note_address_of_objects(
         &self,
         address: &str,
     ) -> Result<(), StoreError> {
-        let mut transaction = begin(&self.pool, None).await?;
+        let mut transaction = begin(&self.writer, None).await?;
         // Two processes that start together must not write two rows.
         sqlx::query("LOCK TABLE object_store IN EXCLUSIVE MODE")
             .execute(&mut *transaction)
@@ -61,7 +61,7 @@ impl PostgresStore {
     pub(in crate::store) async fn removes_objects(&self) -> Result<bool, StoreError> {
         let removes =
             sqlx::query_scalar("SELECT EXISTS (SELECT 1 FROM object_store WHERE removes)");
-        Ok(removes.fetch_one(&self.pool).await?)
+        Ok(removes.fetch_one(&self.writer).await?)
     }
 
     pub(in crate::store) async fn are_objects_marked(
@@ -71,7 +71,7 @@ impl PostgresStore {
         let marked = sqlx::query_scalar(
             "SELECT EXISTS (SELECT 1 FROM object_store WHERE is_marked AND address = $1)",
         );
-        Ok(marked.bind(address).fetch_one(&self.pool).await?)
+        Ok(marked.bind(address).fetch_one(&self.writer).await?)
     }
 
     pub(in crate::store) async fn note_mark_of_objects(
@@ -80,7 +80,7 @@ impl PostgresStore {
     ) -> Result<bool, StoreError> {
         let noted = sqlx::query("UPDATE object_store SET is_marked = true WHERE address = $1")
             .bind(address)
-            .execute(&self.pool)
+            .execute(&self.writer)
             .await?;
         Ok(noted.rows_affected() > 0)
     }
@@ -88,7 +88,7 @@ impl PostgresStore {
     pub(in crate::store) async fn any_object(&self) -> Result<Option<String>, StoreError> {
         let key =
             sqlx::query_scalar("SELECT object FROM result_blocks WHERE object IS NOT NULL LIMIT 1");
-        Ok(key.fetch_optional(&self.pool).await?)
+        Ok(key.fetch_optional(&self.writer).await?)
     }
 
     /// The process that holds a lock moves results, as long as its connection lives. Another one may take over while this one still
@@ -109,7 +109,7 @@ impl PostgresStore {
             Some((connection, false)) => connection,
             None => {
                 let mut connection =
-                    PgConnection::connect_with(&self.pool.connect_options()).await?;
+                    PgConnection::connect_with(&self.writer.connect_options()).await?;
                 refuse_standby(&mut connection).await?;
                 connection
             }
@@ -132,13 +132,13 @@ impl PostgresStore {
         )
         .bind(after)
         .bind(most);
-        Ok(jobs.fetch_all(&self.pool).await?)
+        Ok(jobs.fetch_all(&self.writer).await?)
     }
 
     pub(in crate::store) async fn note_unnamed(&self, keys: &[String]) -> Result<(), StoreError> {
         sqlx::query("INSERT INTO unnamed_objects (key) SELECT * FROM unnest($1::text[])")
             .bind(keys)
-            .execute(&self.pool)
+            .execute(&self.writer)
             .await?;
         Ok(())
     }
@@ -156,13 +156,13 @@ impl PostgresStore {
         )
         .bind(REMOVED_AFTER_MS)
         .bind(most);
-        Ok(keys.fetch_all(&self.pool).await?)
+        Ok(keys.fetch_all(&self.writer).await?)
     }
 
     pub(in crate::store) async fn forget_unnamed(&self, keys: &[String]) -> Result<(), StoreError> {
         sqlx::query("DELETE FROM unnamed_objects WHERE key = ANY($1)")
             .bind(keys)
-            .execute(&self.pool)
+            .execute(&self.writer)
             .await?;
         Ok(())
     }
@@ -172,7 +172,7 @@ impl PostgresStore {
             "UPDATE result_blocks SET is_movable = false WHERE job_id = $1 AND object IS NULL",
         )
         .bind(id)
-        .execute(&self.pool)
+        .execute(&self.writer)
         .await?;
         Ok(())
     }

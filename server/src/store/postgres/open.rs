@@ -92,7 +92,7 @@ impl PostgresStore {
         ];
         let store = Self {
             local,
-            pool,
+            writer: pool,
             readers,
             claims: Groups::default(),
             writes: Groups::default(),
@@ -113,7 +113,7 @@ impl PostgresStore {
         }
         *self.mover.lock().await = None;
         self.readers.close().await;
-        self.pool.close().await;
+        self.writer.close().await;
     }
 }
 

@@ -6,8 +6,8 @@ use sqlx::{Postgres, QueryBuilder};
 
 use crate::store::overview::overview;
 use crate::store::postgres::PostgresStore;
-use crate::store::postgres::maintenance::KEPT_REVISIONS;
 use crate::store::postgres::selects::select_overview;
+use crate::store::postgres::upkeep::KEPT_REVISIONS;
 use crate::store::rows::StoredRow;
 use crate::store::{Changed, StoreError};
 

@@ -7,7 +7,7 @@ use uuid::Uuid;
 
 use crate::clock::Now;
 use crate::store::postgres::checkpoints;
-use crate::store::postgres::files::insert_files;
+use crate::store::postgres::new_files::insert_files;
 use crate::store::postgres::queries::{NewEvent, insert_events};
 use crate::store::rows::integer;
 use crate::store::{JobUpdate, Lease, StoreError};

@@ -18,7 +18,7 @@ impl PostgresStore {
     /// Writes together with others, or alone.
     pub(super) async fn write(&self, write: Write) -> Result<Written, StoreError> {
         let writer = Writer {
-            pool: self.pool.clone(),
+            pool: self.writer.clone(),
             given: self.given_now(),
             attempt_limit: self.local.attempt_limit,
         };

@@ -1,38 +1,10 @@
-//! Blocks of results of ended jobs.
+//! Blocks of results of jobs that end.
 
 use sqlx::SqliteConnection;
 use uuid::Uuid;
 
 use crate::store::StoreError;
 use crate::store::block::EncodedBlock;
-use crate::store::sqlite::SqliteStore;
-use crate::store::stored_block::StoredBlock;
-
-/// Reads the block of a job; `None` if it has none.
-pub(super) async fn stored_block(
-    connection: &mut SqliteConnection,
-    id: Uuid,
-) -> Result<Option<StoredBlock>, sqlx::Error> {
-    let found = sqlx::query_as(
-        "SELECT entries, content, object, content_bytes FROM result_blocks WHERE job_id = ?",
-    )
-    .bind(id.to_string())
-    .fetch_optional(connection)
-    .await?;
-    Ok(found.map(|(entries, content, key, content_bytes)| {
-        StoredBlock::new(entries, content, key, content_bytes)
-    }))
-}
-
-impl SqliteStore {
-    pub(in crate::store) async fn stored_block(
-        &self,
-        id: Uuid,
-    ) -> Result<Option<StoredBlock>, StoreError> {
-        let mut connection = self.readers.acquire().await?;
-        Ok(stored_block(&mut connection, id).await?)
-    }
-}
 
 /// Stores the block of a job that ends. Its documents replace files of the same names that an earlier end has left. Its history replaces the rows if the job has succeeded: the next try of another one
 /// continues them.
@@ -69,32 +41,5 @@ pub(super) async fn insert_block(
             .execute(&mut *connection)
             .await?;
     }
-    Ok(())
-}
-
-/// Returns the compressed entries of a job's block; `None` if it has none.
-pub(super) async fn entries(
-    connection: &mut SqliteConnection,
-    id: Uuid,
-) -> Result<Option<Vec<u8>>, sqlx::Error> {
-    sqlx::query_scalar("SELECT entries FROM result_blocks WHERE job_id = ?")
-        .bind(id.to_string())
-        .fetch_optional(connection)
-        .await
-}
-
-/// Replaces the entries of a block, unless the job has another one meanwhile.
-pub(super) async fn update_entries(
-    connection: &mut SqliteConnection,
-    id: Uuid,
-    old: &[u8],
-    new: &[u8],
-) -> Result<(), sqlx::Error> {
-    sqlx::query("UPDATE result_blocks SET entries = ? WHERE job_id = ? AND entries = ?")
-        .bind(new)
-        .bind(id.to_string())
-        .bind(old)
-        .execute(connection)
-        .await?;
     Ok(())
 }

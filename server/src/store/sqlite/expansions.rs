@@ -1,6 +1,6 @@
 //! Batches with jobs that are queued only when others have been solved.
 
-use sqlx::{Sqlite, SqliteConnection, Transaction};
+use sqlx::SqliteConnection;
 use uuid::Uuid;
 
 use crate::clock::Now;
@@ -11,7 +11,7 @@ use crate::store::gauges::UNKNOWN_CPU_MS;
 use crate::store::new_row::estimated;
 use crate::store::rows::integer;
 use crate::store::sqlite::SqliteStore;
-use crate::store::sqlite::job_rows::insert;
+use crate::store::sqlite::insertion::insert;
 use crate::store::sqlite::queries::BEGIN;
 
 impl SqliteStore {
@@ -100,13 +100,13 @@ pub(super) async fn insert_expansion(
 
 /// Queues jobs of a batch.
 pub(super) async fn insert_jobs(
-    transaction: &mut Transaction<'_, Sqlite>,
+    connection: &mut SqliteConnection,
     batch: Uuid,
     jobs: &[NewBatchJob],
     now: Now,
 ) -> Result<(), StoreError> {
     for new in jobs {
-        let id = insert(transaction, &new.job, Some(batch), now).await?;
+        let id = insert(connection, &new.job, Some(batch), now).await?;
         sqlx::query(
             "INSERT INTO sweep_jobs (sweep_id, position, job_id, overrides) VALUES (?, ?, ?, ?)",
         )
@@ -114,7 +114,7 @@ pub(super) async fn insert_jobs(
         .bind(integer(new.position))
         .bind(id.to_string())
         .bind(serde_json::to_string(&new.overrides)?)
-        .execute(&mut **transaction)
+        .execute(&mut *connection)
         .await?;
     }
     Ok(())

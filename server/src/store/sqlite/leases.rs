@@ -17,10 +17,11 @@ use crate::store::local::log_lost_writes;
 use crate::store::rows::integer;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::blocks::insert_block;
+use crate::store::sqlite::checkpoint_objects::delete_results_after;
 use crate::store::sqlite::checkpoints;
-use crate::store::sqlite::files::insert_files;
+use crate::store::sqlite::new_files::insert_files;
 use crate::store::sqlite::queries::{BEGIN, insert_attempt_event, insert_event};
-use crate::store::sqlite::transitions::end_job;
+use crate::store::sqlite::transitions::end_job_at;
 use crate::store::{End, JobUpdate, Lease, LeaseState, StoreError};
 
 impl SqliteStore {
@@ -31,7 +32,7 @@ impl SqliteStore {
         length: Duration,
     ) -> Result<LeaseState, StoreError> {
         self.local.disk.check()?;
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let (mut transaction, now) = self.begin().await?;
         let events = integer(update.events.len());
         let held: Option<(i64, bool)> = sqlx::query_as(
             "UPDATE jobs SET last_write = ?1, progress = ?2, lease_expires_at = ?3, last_event = last_event + ?4, version = version + 1, \
@@ -55,7 +56,7 @@ impl SqliteStore {
         write_results(&mut transaction, lease, update).await?;
         if let Some(checkpoint) = &update.checkpoint {
             let object = update.checkpoint_object.as_deref();
-            checkpoints::write(&mut transaction, lease, checkpoint, object).await?;
+            checkpoints::write(&mut transaction, lease, (checkpoint, object), now).await?;
             self.local.metrics.checkpoints.inc();
         }
         for (seq, (name, data)) in (last_event - events + 1..).zip(&update.events) {
@@ -207,7 +208,7 @@ impl SqliteStore {
         let Some((event, cancel_requested, attempt)) = held else {
             return self.written_before(&mut transaction, lease, number).await;
         };
-        checkpoints::delete_results_after(&mut transaction, lease.job, None).await?;
+        delete_results_after(&mut transaction, lease.job, None).await?;
         insert_attempt_event(&mut transaction, lease.job, event, attempt, 0).await?;
         transaction.commit().await?;
         self.local.changed(lease.job);
@@ -254,7 +255,7 @@ impl SqliteStore {
         );
         let progress = serde_json::to_string(&update.progress)?;
         let now = self.local.clock.now();
-        let status = end_job(&mut transaction, &job, end, Some(&progress), now).await?;
+        let status = end_job_at(&mut transaction, &job, end, Some(&progress), now).await?;
         if let Some(block) = &update.block {
             let succeeded = status == Some(Status::Succeeded);
             insert_block(&mut transaction, lease.job, block, succeeded).await?;

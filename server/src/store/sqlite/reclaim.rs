@@ -89,7 +89,7 @@ impl SqliteStore {
                 .await?;
                 ending.push(rows::claim(id, &row, now, None)?);
             } else {
-                let status = end_job(&mut transaction, &job, &end, None, now).await?;
+                let status = end_job(&mut transaction, &job, &end, now).await?;
                 queued.push((id, status));
             }
         }

@@ -3,11 +3,10 @@
 use sqlx::SqliteConnection;
 use uuid::Uuid;
 
-use crate::store::StoreError;
 use crate::store::results_to_move::{Stored, StoredFile, file_to_move};
 use crate::store::sqlite::SqliteStore;
-use crate::store::sqlite::blocks::stored_block;
-use crate::store::sqlite::events::events_to_move;
+use crate::store::sqlite::stored_blocks::stored_block;
+use crate::store::{StoreError, StoredEvent};
 
 impl SqliteStore {
     pub(in crate::store) async fn results_to_move(
@@ -61,4 +60,20 @@ impl SqliteStore {
         let file = |row| file_to_move(&self.local, id, row, None);
         Ok(rows.iter().map(file).collect())
     }
+}
+
+/// All events of a job but the last one, which stays.
+async fn events_to_move(
+    connection: &mut SqliteConnection,
+    id: Uuid,
+) -> Result<Vec<StoredEvent>, StoreError> {
+    let rows: Vec<(i64, String, String)> = sqlx::query_as(
+        "SELECT seq, name, data FROM events WHERE job_id = $1 \
+         AND seq < (SELECT last_event FROM jobs WHERE id = $1) ORDER BY seq",
+    )
+    .bind(id.to_string())
+    .fetch_all(connection)
+    .await?;
+    let event = |(seq, name, data)| StoredEvent { seq, name, data };
+    Ok(rows.into_iter().map(event).collect())
 }

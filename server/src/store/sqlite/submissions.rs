@@ -6,7 +6,7 @@ use uuid::fmt::Hyphenated;
 
 use crate::clock::Now;
 use crate::groups::{Groups, Pending};
-use crate::store::sqlite::job_rows::insert;
+use crate::store::sqlite::insertion::insert;
 use crate::store::sqlite::queries::BEGIN;
 use crate::store::{NewJob, RequestKey, StoreError, Submitted};
 

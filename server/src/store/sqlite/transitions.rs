@@ -14,6 +14,16 @@ pub(super) async fn end_job(
     connection: &mut SqliteConnection,
     job: &EndingJob,
     end: &End,
+    now: Now,
+) -> Result<Option<Status>, StoreError> {
+    end_job_at(connection, job, end, None, now).await
+}
+
+/// Ends a job at its last progress.
+pub(super) async fn end_job_at(
+    connection: &mut SqliteConnection,
+    job: &EndingJob,
+    end: &End,
     progress: Option<&str>,
     now: Now,
 ) -> Result<Option<Status>, StoreError> {

@@ -1,121 +1,17 @@
-//! Manifests: the files of a job by name, and their content.
+//! Files of attempts: those that get a name, and those that have none.
 
 use std::collections::HashSet;
 
-use api::results::ResultFile;
 use sqlx::postgres::PgConnection;
 use uuid::Uuid;
 
-use crate::objects::Source;
-use crate::store::block::Block;
 use crate::store::file_key::is_of_job;
 use crate::store::folder::Folder;
-use crate::store::postgres::blocks::entries;
-use crate::store::postgres::job_rows::lock;
-use crate::store::postgres::{PostgresStore, begin};
-use crate::store::rows::{StoredRow, entry, integer};
-use crate::store::stored_block::unreadable;
-use crate::store::stored_file::{file, source};
-use crate::store::{Content, Lease, NewContent, NewFile, StoreError};
+use crate::store::postgres::PostgresStore;
+use crate::store::rows::integer;
+use crate::store::{Lease, NewContent, NewFile, StoreError};
 
 impl PostgresStore {
-    pub(in crate::store) async fn manifest(&self, id: Uuid) -> Result<Vec<ResultFile>, StoreError> {
-        // Both as of one time: a file may be moved from the one to the other.
-        let mut transaction = begin(
-            &self.readers,
-            Some("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY"),
-        )
-        .await?;
-        let rows = sqlx::query(
-            "SELECT name, cycle, media_type, bytes, sha256, damaged FROM result_files WHERE job_id = $1",
-        )
-        .bind(id)
-        .fetch_all(&mut *transaction)
-        .await?;
-        let mut files: Vec<_> = rows.iter().map(entry).collect::<Result<_, _>>()?;
-        if let Some(entries) = entries(&mut transaction, id).await? {
-            files.extend(Block::listed(&entries).map_err(|cause| unreadable(id, &cause))?);
-        }
-        files.sort_by(|a, b| a.name.cmp(&b.name));
-        Ok(files)
-    }
-
-    pub(in crate::store) async fn file_row(
-        &self,
-        id: Uuid,
-        name: &str,
-    ) -> Result<Option<(ResultFile, Content)>, StoreError> {
-        // No text of the database has this character, and none can be compared with one that has.
-        if name.contains('\0') {
-            return Ok(None);
-        }
-        let row = sqlx::query(
-            "SELECT name, cycle, media_type, bytes, sha256, damaged, content, place, object FROM result_files WHERE job_id = $1 AND name = $2",
-        )
-        .bind(id)
-        .bind(name)
-        .fetch_optional(&self.readers)
-        .await?;
-        let Some(row) = row else {
-            return Ok(None);
-        };
-        let object = row.optional_text("object")?;
-        file(&self.local, id, &row, object.as_deref()).map(Some)
-    }
-
-    pub(in crate::store) async fn files_outside(
-        &self,
-        id: Uuid,
-    ) -> Result<Vec<(ResultFile, Source)>, StoreError> {
-        let rows = sqlx::query(
-            "SELECT name, cycle, media_type, bytes, sha256, damaged, place, object FROM result_files WHERE job_id = $1 AND content IS NULL",
-        )
-        .bind(id)
-        .fetch_all(&self.readers)
-        .await?;
-        let mut files = Vec::with_capacity(rows.len());
-        for row in &rows {
-            let (entry, object) = (entry(row)?, row.optional_text("object")?);
-            let source = source(&self.local, id, &entry, (row, object.as_deref()))?;
-            files.extend(source.map(|source| (entry, source)));
-        }
-        Ok(files)
-    }
-
-    pub(in crate::store) async fn mark_damaged(
-        &self,
-        id: Uuid,
-        name: &str,
-        how: Option<&str>,
-    ) -> Result<(), StoreError> {
-        let mut transaction = begin(&self.pool, None).await?;
-        lock(&mut transaction, id).await?;
-        sqlx::query(
-            "UPDATE result_files SET damaged = $1 WHERE job_id = $2 AND name = $3 AND damaged IS DISTINCT FROM $1",
-        )
-        .bind(how)
-        .bind(id)
-        .bind(name)
-        .execute(&mut *transaction)
-        .await?;
-        if let Some(old) = entries(&mut transaction, id).await? {
-            let block = Block::decode(&old, &[]);
-            let mut block = block.map_err(|cause| unreadable(id, &cause))?;
-            if let Some(new) = block.mark(name, how)? {
-                // Unless the job has another block meanwhile.
-                sqlx::query(
-                    "UPDATE result_blocks SET entries = $1 WHERE job_id = $2 AND entries = $3",
-                )
-                .bind(new)
-                .bind(id)
-                .bind(old)
-                .execute(&mut *transaction)
-                .await?;
-            }
-        }
-        Ok(transaction.commit().await?)
-    }
-
     /// Removes files of the attempts at a job up to this one, or those of all jobs that were deleted or whose results were moved. Files of
     /// other jobs may be about to be named by other processes.
     pub(in crate::store) async fn remove_unnamed_files(

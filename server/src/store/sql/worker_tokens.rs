@@ -2,32 +2,29 @@
 
 use api::worker::WorkerToken;
 use uuid::Uuid;
-use uuid::fmt::Hyphenated;
 
+use super::dialect::{EngineStore, StoredId, read_id, stored_id};
 use crate::store::StoreError;
-use crate::store::rows::{timestamp, token};
-use crate::store::sqlite::SqliteStore;
+use crate::store::rows::token;
 
-impl SqliteStore {
+impl EngineStore {
     pub(in crate::store) async fn add_worker_token(
         &self,
         name: &str,
         sha256: &[u8; 32],
     ) -> Result<WorkerToken, StoreError> {
-        let (id, now) = (Uuid::now_v7(), self.local.clock.now().system_ms);
-        sqlx::query("INSERT INTO worker_tokens (id, name, sha256, created_at) VALUES (?, ?, ?, ?)")
-            .bind(id.to_string())
-            .bind(name)
-            .bind(&sha256[..])
-            .bind(now)
-            .execute(&self.writer)
-            .await?;
-        Ok(WorkerToken {
-            id,
-            name: name.to_owned(),
-            created_at: timestamp(now),
-            revoked_at: None,
-        })
+        let (mut transaction, now) = self.begin().await?;
+        let row = sqlx::query(
+            "INSERT INTO worker_tokens (id, name, sha256, created_at) VALUES ($1, $2, $3, $4) RETURNING *",
+        )
+        .bind(stored_id(Uuid::now_v7()))
+        .bind(name)
+        .bind(&sha256[..])
+        .bind(now.system_ms)
+        .fetch_one(&mut *transaction)
+        .await?;
+        transaction.commit().await?;
+        token(&row)
     }
 
     pub(in crate::store) async fn worker_tokens(&self) -> Result<Vec<WorkerToken>, StoreError> {
@@ -39,13 +36,15 @@ impl SqliteStore {
     }
 
     pub(in crate::store) async fn revoke_worker_token(&self, id: Uuid) -> Result<bool, StoreError> {
+        let (mut transaction, now) = self.begin().await?;
         let revoked = sqlx::query(
-            "UPDATE worker_tokens SET revoked_at = COALESCE(revoked_at, ?) WHERE id = ?",
+            "UPDATE worker_tokens SET revoked_at = COALESCE(revoked_at, $1) WHERE id = $2",
         )
-        .bind(self.local.clock.now().system_ms)
-        .bind(id.to_string())
-        .execute(&self.writer)
+        .bind(now.system_ms)
+        .bind(stored_id(id))
+        .execute(&mut *transaction)
         .await?;
+        transaction.commit().await?;
         Ok(revoked.rows_affected() > 0)
     }
 
@@ -53,12 +52,12 @@ impl SqliteStore {
         &self,
         sha256: &[u8; 32],
     ) -> Result<Option<Uuid>, StoreError> {
-        let found: Option<Hyphenated> = sqlx::query_scalar(
-            "SELECT id FROM worker_tokens WHERE sha256 = ? AND revoked_at IS NULL",
+        let found: Option<StoredId> = sqlx::query_scalar(
+            "SELECT id FROM worker_tokens WHERE sha256 = $1 AND revoked_at IS NULL",
         )
         .bind(&sha256[..])
         .fetch_optional(&self.readers)
         .await?;
-        Ok(found.map(Uuid::from))
+        Ok(found.map(read_id))
     }
 }

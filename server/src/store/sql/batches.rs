@@ -3,17 +3,14 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-use sqlx::postgres::{PgConnection, PgExecutor};
+use sqlx::QueryBuilder;
 use uuid::Uuid;
 
-use crate::clock::Now;
+use super::dialect::{BY_SWEEP, Engine, EngineStore, StoredId, read_id, stored_id};
 use crate::store::batch_rows::{batch_job, batch_overview, no_jobs, refused_job};
 use crate::store::batches::{
-    BatchDetail, BatchFilter, BatchJob, BatchOverview, BatchPart, NewBatch, StoredBatch,
+    BatchDetail, BatchFilter, BatchJob, BatchOverview, BatchPart, StoredBatch,
 };
-use crate::store::job_ids::new_id;
-use crate::store::postgres::PostgresStore;
-use crate::store::postgres::expansions::{insert_expansion, insert_jobs};
 use crate::store::rows::{StoredRow, integer};
 use crate::store::{RequestKey, StoreError, Submitted};
 
@@ -27,36 +24,12 @@ macro_rules! overviews {
     };
 }
 
-impl PostgresStore {
-    pub(in crate::store) async fn submit_batch(
-        &self,
-        batch: &NewBatch,
-        key: Option<&RequestKey>,
-    ) -> Result<Submitted, StoreError> {
-        self.local.disk.check()?;
-        let (mut transaction, now) = self.begin().await?;
-        let id = new_id(now.system_ms);
-        if !insert_batch(&mut transaction, (id, batch), key, now).await?
-            && let Some(key) = key
-        {
-            // The transaction of the earlier request has ended: this one has waited for it.
-            let earlier = submitted(&mut *transaction, key).await?;
-            return earlier.ok_or(StoreError::Unwritten);
-        }
-        if let Some(expansion) = &batch.expansion {
-            insert_expansion(&mut transaction, id, expansion).await?;
-        }
-        insert_jobs(&mut transaction, id, &batch.jobs, now).await?;
-        transaction.commit().await?;
-        self.local.many_wait();
-        Ok(Submitted::Job(id))
-    }
-
+impl EngineStore {
     pub(in crate::store) async fn submitted_batch(
         &self,
-        key: &RequestKey,
+        request: &RequestKey,
     ) -> Result<Option<Submitted>, StoreError> {
-        submitted(&self.pool, key).await
+        submitted(&self.readers, request).await
     }
 
     pub(in crate::store) async fn batch_without_profiles(
@@ -70,7 +43,7 @@ impl PostgresStore {
             ", plan, request FROM sweeps LEFT JOIN expansions ON expansions.sweep_id = id \
              LEFT JOIN studies ON studies.sweep_id = id WHERE id = $1 AND ending IS DISTINCT FROM 'delete'",
         ))
-        .bind(id)
+        .bind(stored_id(id))
         .fetch_optional(&self.readers)
         .await?;
         let Some(batch) = batch else {
@@ -80,7 +53,7 @@ impl PostgresStore {
         let refused = sqlx::query(
             "SELECT position, overrides, reason FROM refused_jobs WHERE sweep_id = $1 ORDER BY position",
         )
-        .bind(id)
+        .bind(stored_id(id))
         .fetch_all(&self.readers)
         .await?;
         let refused = refused.iter().map(|row| refused_job(id, row));
@@ -105,7 +78,7 @@ impl PostgresStore {
              ORDER BY position LIMIT $4",
         )
         .bind(detail >= BatchDetail::Summaries)
-        .bind(id)
+        .bind(stored_id(id))
         .bind(integer(part.from))
         .bind(i64::from(part.limit))
         .fetch_all(&self.readers)
@@ -120,7 +93,7 @@ impl PostgresStore {
     ) -> Result<Option<String>, StoreError> {
         let base: Option<Option<String>> =
             sqlx::query_scalar("SELECT base FROM sweeps WHERE id = $1")
-                .bind(batch)
+                .bind(stored_id(batch))
                 .fetch_optional(&self.readers)
                 .await?;
         Ok(base.flatten())
@@ -136,7 +109,7 @@ impl PostgresStore {
              WHERE id < $1 AND ending IS DISTINCT FROM 'delete' AND (NOT $2 OR id IN (SELECT sweep_id FROM studies)) \
              ORDER BY id DESC LIMIT $3",
         ))
-        .bind(filter.before.unwrap_or(Uuid::max()))
+        .bind(stored_id(filter.before.unwrap_or(Uuid::max())))
         .bind(filter.with_plan)
         .bind(i64::from(filter.limit))
         .fetch_all(&self.readers)
@@ -158,7 +131,7 @@ impl PostgresStore {
             "SELECT EXISTS (SELECT 1 FROM sweeps LEFT JOIN studies ON sweep_id = id \
              WHERE id = $1 AND ending IS DISTINCT FROM 'delete' AND (NOT $2 OR plan IS NOT NULL))",
         )
-        .bind(id)
+        .bind(stored_id(id))
         .bind(with_plan)
         .fetch_one(&self.readers);
         Ok(found.await?)
@@ -170,11 +143,11 @@ impl PostgresStore {
             return Ok(kept);
         }
         let began = Instant::now();
-        let rows: Vec<(String, i64)> =
-            sqlx::query_as("SELECT status, count(*) FROM jobs WHERE sweep_id = $1 GROUP BY status")
-                .bind(id)
-                .fetch_all(&self.readers)
-                .await?;
+        let mut query = QueryBuilder::<Engine>::new(format!(
+            "SELECT status, count(*) FROM jobs{BY_SWEEP} WHERE sweep_id = "
+        ));
+        query.push_bind(stored_id(id)).push(" GROUP BY status");
+        let rows: Vec<(String, i64)> = query.build_query_as().fetch_all(&self.readers).await?;
         let mut counts = no_jobs();
         let count = |(status, count): (String, i64)| (status, count.try_into().unwrap_or_default());
         counts.extend(rows.into_iter().map(count));
@@ -183,45 +156,15 @@ impl PostgresStore {
     }
 }
 
-/// Adds a batch without its jobs; false if an earlier request with the same key has added one.
-async fn insert_batch(
-    connection: &mut PgConnection,
-    (id, batch): (Uuid, &NewBatch),
-    key: Option<&RequestKey>,
-    now: Now,
-) -> Result<bool, StoreError> {
-    let added = sqlx::query(
-        "INSERT INTO sweeps (id, name, base, created_at, request_key, body_sha256, submitted_ms) \
-         VALUES ($1, $2, $3, $4, $5, $6, (SELECT passed_ms FROM service_time)) \
-         ON CONFLICT (request_key) DO NOTHING",
-    )
-    .bind(id)
-    .bind(&batch.name)
-    .bind(&batch.base)
-    .bind(now.system_ms)
-    .bind(key.map(|key| &key.key))
-    .bind(key.map(|key| key.meaning_sha256.as_slice()))
-    .execute(&mut *connection)
-    .await?;
-    if let Some(plan) = batch.plan.as_ref().filter(|_| added.rows_affected() > 0) {
-        sqlx::query("INSERT INTO studies (sweep_id, plan) VALUES ($1, $2)")
-            .bind(id)
-            .bind(plan)
-            .execute(connection)
-            .await?;
-    }
-    Ok(added.rows_affected() > 0)
-}
-
 /// Returns the batch that an earlier request with the same key queued.
-async fn submitted(
-    database: impl PgExecutor<'_>,
-    key: &RequestKey,
+pub(super) async fn submitted(
+    database: impl sqlx::Executor<'_, Database = Engine>,
+    request: &RequestKey,
 ) -> Result<Option<Submitted>, StoreError> {
-    let earlier: Option<(Vec<u8>, Uuid)> =
+    let earlier: Option<(Vec<u8>, StoredId)> =
         sqlx::query_as("SELECT body_sha256, id FROM sweeps WHERE request_key = $1")
-            .bind(&key.key)
+            .bind(&request.key)
             .fetch_optional(database)
             .await?;
-    Ok(earlier.map(|(body, id)| key.repeated(&body, id)))
+    Ok(earlier.map(|(body, batch)| request.repeated(&body, read_id(batch))))
 }

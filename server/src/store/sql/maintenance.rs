@@ -3,30 +3,35 @@
 use std::time::Duration;
 
 use api::job::{Outcome, Status};
+use sqlx::{AssertSqlSafe, QueryBuilder};
 use uuid::Uuid;
 
+use super::dialect::{
+    BY_DEADLINE, Engine, EngineStore, GREATEST, LEAST, SKIP_LOCKED, StoredId, read_id,
+};
+use super::transitions::end_job;
 use crate::queue::Transition;
 use crate::store::ending::EndingJob;
 use crate::store::limits::LONGEST_COUNTED_MS;
-use crate::store::postgres::PostgresStore;
-use crate::store::postgres::transitions::end_job;
 use crate::store::rows::integer;
 use crate::store::{End, StoreError};
 
 /// Largest number of jobs deleted in a call; bounds how long other writes wait.
 const DELETE_LIMIT: i64 = 50;
-/// Revisions whose deletions are kept.
-pub(super) const KEPT_REVISIONS: i64 = 1_000_000;
 
-impl PostgresStore {
+impl EngineStore {
     pub(in crate::store) async fn expire(&self) -> Result<usize, StoreError> {
         let (mut transaction, now) = self.begin().await?;
-        let late: Vec<Uuid> = sqlx::query_scalar(
-            "SELECT id FROM jobs WHERE status = 'queued' AND deadline_at <= $1 ORDER BY id FOR UPDATE SKIP LOCKED",
-        )
-        .bind(now.monotonic_ms)
-        .fetch_all(&mut *transaction)
-        .await?;
+        let mut query = QueryBuilder::<Engine>::new(format!(
+            "SELECT id FROM jobs{BY_DEADLINE} WHERE status = 'queued' AND deadline_at <= "
+        ));
+        query.push_bind(now.monotonic_ms);
+        query.push(format!(" ORDER BY id{SKIP_LOCKED}"));
+        let late: Vec<StoredId> = query
+            .build_query_scalar()
+            .fetch_all(&mut *transaction)
+            .await?;
+        let late: Vec<Uuid> = late.into_iter().map(read_id).collect();
         let end = End {
             outcome: Some(Outcome::DeadlineExceeded),
             ..End::without_result(Transition::Expire, "its deadline passed while it waited")
@@ -44,29 +49,29 @@ impl PostgresStore {
 
     /// Several services of a database count the same time once.
     pub(in crate::store) async fn count_time(&self) -> Result<(), StoreError> {
-        let mut connection = self.pool.acquire().await?;
-        let now = self.now(&mut connection).await?;
-        sqlx::query(
-            "UPDATE service_time SET passed_ms = passed_ms + LEAST(GREATEST($1 - counted_at, 0), $2), counted_at = $1",
-        )
-        .bind(now.monotonic_ms)
-        .bind(LONGEST_COUNTED_MS)
-        .execute(&mut *connection)
-        .await?;
-        Ok(())
+        let (mut transaction, now) = self.begin().await?;
+        let statement = format!(
+            "UPDATE service_time SET passed_ms = passed_ms + {LEAST}({GREATEST}($1 - counted_at, 0), $2), counted_at = $1"
+        );
+        sqlx::query(AssertSqlSafe(statement))
+            .bind(now.monotonic_ms)
+            .bind(LONGEST_COUNTED_MS)
+            .execute(&mut *transaction)
+            .await?;
+        Ok(transaction.commit().await?)
     }
 
     pub(in crate::store) async fn delete_older(&self, age: Duration) -> Result<usize, StoreError> {
-        let old: Vec<Uuid> = sqlx::query_scalar(
+        let old: Vec<StoredId> = sqlx::query_scalar(
             "SELECT id FROM jobs WHERE finished_at IS NOT NULL AND ended_ms < (SELECT passed_ms FROM service_time) - $1 \
              ORDER BY ended_ms, finished_at LIMIT $2",
         )
         .bind(integer(age.as_millis()))
         .bind(DELETE_LIMIT)
-        .fetch_all(&self.pool)
+        .fetch_all(&self.writer)
         .await?;
-        for id in &old {
-            self.delete(*id).await?;
+        for id in old.iter().copied().map(read_id) {
+            self.delete(id).await?;
         }
         sqlx::query(
             "DELETE FROM sweeps WHERE submitted_ms < (SELECT passed_ms FROM service_time) - $1 \
@@ -74,34 +79,8 @@ impl PostgresStore {
              AND NOT EXISTS (SELECT 1 FROM expansions WHERE sweep_id = sweeps.id AND NOT is_over)",
         )
         .bind(integer(age.as_millis()))
-        .execute(&self.pool)
+        .execute(&self.writer)
         .await?;
         Ok(old.len())
-    }
-
-    /// The server keeps its own log; what is removed here are old notes of deletions.
-    pub(in crate::store) async fn checkpoint_wal(&self) -> Result<(), StoreError> {
-        sqlx::query(
-            "DELETE FROM deleted_jobs WHERE revision <= (SELECT fretwear_last_revision()) - $1",
-        )
-        .bind(KEPT_REVISIONS)
-        .execute(&self.pool)
-        .await?;
-        Ok(())
-    }
-
-    /// The server does it by itself.
-    #[expect(clippy::unused_async, reason = "a file has to be asked")]
-    pub(in crate::store) async fn give_pages_back(&self) -> Result<(), StoreError> {
-        Ok(())
-    }
-
-    /// Several processes may serve the database.
-    #[expect(
-        clippy::unused_async,
-        reason = "other engines note in the database which process serves it"
-    )]
-    pub(in crate::store) async fn beat(&self) -> Result<(), StoreError> {
-        Ok(())
     }
 }

@@ -2,10 +2,10 @@
 
 use uuid::Uuid;
 
-use crate::store::postgres::PostgresStore;
+use super::dialect::{EngineStore, stored_id};
 use crate::store::{StoreError, StoredEvent, events};
 
-impl PostgresStore {
+impl EngineStore {
     pub(in crate::store) async fn event_rows(
         &self,
         id: Uuid,
@@ -15,7 +15,7 @@ impl PostgresStore {
             "SELECT seq, name, data, CASE WHEN name = 'done' THEN (SELECT summary FROM jobs WHERE id = job_id) END \
              FROM events WHERE job_id = $1 AND seq > $2 ORDER BY seq LIMIT $3",
         )
-        .bind(id)
+        .bind(stored_id(id))
         .bind(after)
         .bind(events::PAGE)
         .fetch_all(&self.readers)

@@ -1,14 +1,15 @@
 //! Remote workers.
 
 use api::worker::RemoteWorker;
+use sqlx::QueryBuilder;
 use uuid::Uuid;
 
+use super::dialect::{BY_CLAIM, Engine, EngineStore, SKIP_LOCKED, StoredId, read_id, stored_id};
 use crate::store::StoreError;
-use crate::store::postgres::PostgresStore;
 use crate::store::rows::remote_worker;
 use crate::store::workers::{WorkerContact, contact_at, present_from, remembered_from};
 
-impl PostgresStore {
+impl EngineStore {
     pub(in crate::store) async fn note_workers(
         &self,
         contacts: &[WorkerContact],
@@ -32,7 +33,7 @@ impl PostgresStore {
                 )
                 .bind(at)
                 .bind(failing)
-                .bind(id)
+                .bind(stored_id(*id))
                 .execute(&mut *transaction)
                 .await?;
                 continue;
@@ -42,7 +43,7 @@ impl PostgresStore {
                  ON CONFLICT (id) DO UPDATE SET free_memory_mb = excluded.free_memory_mb, failing = excluded.failing, \
                  last_contact_at = excluded.last_contact_at WHERE excluded.last_contact_at > workers.last_contact_at",
             )
-            .bind(id)
+            .bind(stored_id(*id))
             .bind(&offer.host)
             .bind(offer.slots)
             .bind(offer.memory_mb)
@@ -52,45 +53,50 @@ impl PostgresStore {
             .execute(&mut *transaction)
             .await?;
         }
-        sqlx::query(
-            "DELETE FROM workers WHERE id IN \
-             (SELECT id FROM workers WHERE last_contact_at < $1 ORDER BY id FOR UPDATE SKIP LOCKED)",
-        )
-        .bind(remembered_from(now))
-        .execute(&mut *transaction)
-        .await?;
+        let mut query = QueryBuilder::<Engine>::new(
+            "DELETE FROM workers WHERE id IN (SELECT id FROM workers WHERE last_contact_at < ",
+        );
+        query.push_bind(remembered_from(now));
+        query.push(format!(" ORDER BY id{SKIP_LOCKED})"));
+        query.build().execute(&mut *transaction).await?;
         Ok(transaction.commit().await?)
     }
 
     pub(in crate::store) async fn workers(&self) -> Result<Vec<RemoteWorker>, StoreError> {
-        let mut connection = self.readers.acquire().await?;
-        let now = self.now(&mut connection).await?.monotonic_ms;
-        let rows = sqlx::query(
-            "SELECT id, host, slots, memory_mb, free_memory_mb, last_contact_at, is_draining::int::bigint AS is_draining, failing, \
-             (SELECT count(*) FROM jobs WHERE status = 'running' AND worker = workers.id) AS jobs \
-             FROM workers WHERE last_contact_at >= $1 ORDER BY id",
-        )
-        .bind(present_from(now))
-        .fetch_all(&mut *connection)
-        .await?;
+        let (mut connection, now) = self.read().await?;
+        let now = now.monotonic_ms;
+        let mut query = QueryBuilder::<Engine>::new(format!(
+            "SELECT id, host, slots, memory_mb, free_memory_mb, last_contact_at, failing, \
+             CAST(CASE WHEN is_draining THEN 1 ELSE 0 END AS bigint) AS is_draining, \
+             (SELECT count(*) FROM jobs{BY_CLAIM} WHERE status = 'running' AND worker = workers.id) AS jobs \
+             FROM workers WHERE last_contact_at >= "
+        ));
+        query.push_bind(present_from(now)).push(" ORDER BY id");
+        let rows = query.build().fetch_all(&mut *connection).await?;
         rows.iter().map(|row| remote_worker(row, now)).collect()
     }
 
     pub(in crate::store) async fn draining_workers(&self) -> Result<Vec<Uuid>, StoreError> {
-        let draining = sqlx::query_scalar("SELECT id FROM workers WHERE is_draining");
-        Ok(draining.fetch_all(&self.readers).await?)
+        let draining: Vec<StoredId> =
+            sqlx::query_scalar("SELECT id FROM workers WHERE is_draining")
+                .fetch_all(&self.readers)
+                .await?;
+        Ok(draining.into_iter().map(read_id).collect())
     }
 
     pub(in crate::store) async fn drain_worker(&self, id: Uuid) -> Result<bool, StoreError> {
-        let mut connection = self.pool.acquire().await?;
-        let now = self.now(&mut connection).await?.monotonic_ms;
-        let drained = sqlx::query(
-            "UPDATE workers SET is_draining = true WHERE id = $1 AND last_contact_at >= $2",
-        )
-        .bind(id)
-        .bind(present_from(now))
-        .execute(&mut *connection)
-        .await?;
-        Ok(drained.rows_affected() > 0)
+        let write = async || {
+            let (mut transaction, now) = self.begin().await?;
+            let drained = sqlx::query(
+                "UPDATE workers SET is_draining = true WHERE id = $1 AND last_contact_at >= $2",
+            )
+            .bind(stored_id(id))
+            .bind(present_from(now.monotonic_ms))
+            .execute(&mut *transaction)
+            .await?;
+            transaction.commit().await?;
+            Ok(drained.rows_affected() > 0)
+        };
+        self.with_reserve(write).await
     }
 }

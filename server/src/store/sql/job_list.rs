@@ -2,18 +2,21 @@
 
 use api::job::{Job, JobOverview};
 use api::service::LabelInUse;
-use sqlx::{Postgres, QueryBuilder};
+use sqlx::QueryBuilder;
 use uuid::Uuid;
 
+use super::dialect::{
+    COLLATION, Engine, EngineStore, JOIN_IN_ORDER, LEAST, LIFE_CYCLES, NAME, PROGRESS, SEARCH,
+    STORES_NUL, StoredId, WEAR, read_id, stored_id,
+};
+use super::selects::{self, DOCUMENT};
 use crate::store::document::document;
 use crate::store::job_ids::{first_created_at, first_created_before};
 use crate::store::list_order::{ORDER_VALUE, OrderKind, place};
 use crate::store::overview::overview;
-use crate::store::postgres::PostgresStore;
-use crate::store::postgres::selects::{self, DOCUMENT, LIFE_CYCLES};
 use crate::store::{Filter, ListPlace, Listed, OrderKey, OrderValue, StoreError};
 
-impl PostgresStore {
+impl EngineStore {
     pub(in crate::store) async fn list(
         &self,
         filter: &Filter,
@@ -44,15 +47,11 @@ impl PostgresStore {
         rows.iter().map(listed).collect()
     }
 
-    pub(in crate::store) async fn present_ms(&self) -> Result<i64, StoreError> {
-        let mut reader = self.readers.acquire().await?;
-        Ok(self.now(&mut reader).await?.system_ms)
-    }
-
     /// Ids of the jobs that pass a filter in the order by creation.
     pub(super) async fn ids(&self, filter: &Filter) -> Result<Vec<Uuid>, StoreError> {
         let mut query = listing("id", filter);
-        Ok(query.build_query_scalar().fetch_all(&self.readers).await?)
+        let ids: Vec<StoredId> = query.build_query_scalar().fetch_all(&self.readers).await?;
+        Ok(ids.into_iter().map(read_id).collect())
     }
 
     pub(in crate::store) async fn count(&self, filter: &Filter) -> Result<u64, StoreError> {
@@ -63,13 +62,13 @@ impl PostgresStore {
     }
 
     pub(in crate::store) async fn labels(&self, most: u32) -> Result<Vec<LabelInUse>, StoreError> {
-        let rows: Vec<(String, String, i64)> = sqlx::query_as(
+        let mut query = QueryBuilder::<Engine>::new(format!(
             "SELECT key, value, count(*) FROM labels GROUP BY key, value \
-             ORDER BY key COLLATE \"C\", 3 DESC, value COLLATE \"C\" LIMIT $1",
-        )
-        .bind(i64::from(most))
-        .fetch_all(&self.readers)
-        .await?;
+             ORDER BY key{COLLATION}, 3 DESC, value{COLLATION} LIMIT "
+        ));
+        query.push_bind(i64::from(most));
+        let rows: Vec<(String, String, i64)> =
+            query.build_query_as().fetch_all(&self.readers).await?;
         let rows = rows.into_iter().map(|(key, value, jobs)| LabelInUse {
             key,
             value,
@@ -81,7 +80,7 @@ impl PostgresStore {
 
 /// A query of columns of jobs by the conditions, the order and the limits of a filter, with what they are ordered by. The columns are read for
 /// the page alone, whose ids are found first.
-fn listing(columns: &str, filter: &Filter) -> QueryBuilder<Postgres> {
+fn listing(columns: &str, filter: &Filter) -> QueryBuilder<Engine> {
     let direction = if filter.order.descending {
         " DESC NULLS LAST"
     } else {
@@ -101,9 +100,9 @@ fn listing(columns: &str, filter: &Filter) -> QueryBuilder<Postgres> {
             query.push(format!(" AS {ORDER_VALUE}"));
         }
         OrderKind::Number => {
-            query.push(", (");
+            query.push(", CAST(");
             push_order_key(&mut query, filter);
-            query.push(format!(")::float8 AS {ORDER_VALUE}"));
+            query.push(format!(" AS double precision) AS {ORDER_VALUE}"));
         }
     }
     query.push(" FROM jobs");
@@ -116,7 +115,9 @@ fn listing(columns: &str, filter: &Filter) -> QueryBuilder<Postgres> {
         query.push(", id DESC");
     }
     query.push(" LIMIT ").push_bind(i64::from(filter.limit));
-    query.push(") AS page JOIN jobs ON id = listed ORDER BY ");
+    query.push(format!(
+        ") AS page {JOIN_IN_ORDER} jobs ON id = listed ORDER BY "
+    ));
     query.push(if has_value { ORDER_VALUE } else { "id" });
     query.push(direction);
     if has_value {
@@ -127,7 +128,7 @@ fn listing(columns: &str, filter: &Filter) -> QueryBuilder<Postgres> {
 
 /// Appends that jobs are behind the place of a filter: they have a value further on in its order, the same value and a smaller id, or no
 /// value.
-fn push_place(query: &mut QueryBuilder<Postgres>, filter: &Filter) {
+fn push_place(query: &mut QueryBuilder<Engine>, filter: &Filter) {
     let Some(ListPlace { id, value }) = &filter.after else {
         return;
     };
@@ -138,12 +139,15 @@ fn push_place(query: &mut QueryBuilder<Postgres>, filter: &Filter) {
     };
     match value {
         None if filter.order.key == OrderKey::Created => {
-            query.push(" AND id").push(further).push_bind(*id);
+            query
+                .push(" AND id")
+                .push(further)
+                .push_bind(stored_id(*id));
         }
         None => {
             query.push(" AND ");
             push_order_key(query, filter);
-            query.push(" IS NULL AND id < ").push_bind(*id);
+            query.push(" IS NULL AND id < ").push_bind(stored_id(*id));
         }
         Some(value) => {
             query.push(" AND (");
@@ -154,7 +158,7 @@ fn push_place(query: &mut QueryBuilder<Postgres>, filter: &Filter) {
             push_order_key(query, filter);
             query.push(" = ");
             push_value(query, value);
-            query.push(" AND id < ").push_bind(*id);
+            query.push(" AND id < ").push_bind(stored_id(*id));
             query.push(" OR ");
             push_order_key(query, filter);
             query.push(" IS NULL)");
@@ -162,7 +166,7 @@ fn push_place(query: &mut QueryBuilder<Postgres>, filter: &Filter) {
     }
 }
 
-fn push_value(query: &mut QueryBuilder<Postgres>, value: &OrderValue) {
+fn push_value(query: &mut QueryBuilder<Engine>, value: &OrderValue) {
     match value {
         OrderValue::Number(number) => query.push_bind(*number),
         OrderValue::Text(text) => query.push_bind(text.clone()),
@@ -170,42 +174,35 @@ fn push_value(query: &mut QueryBuilder<Postgres>, value: &OrderValue) {
 }
 
 /// Appends what jobs are ordered by; ids are ordered by their time of creation.
-fn push_order_key(query: &mut QueryBuilder<Postgres>, filter: &Filter) {
-    let expression = match filter.order.key {
-        OrderKey::Created => "id",
-        OrderKey::Name => "lower((spec::json ->> 'name') COLLATE \"C\")",
-        OrderKey::System => "system COLLATE \"C\"",
-        OrderKey::Status => "status COLLATE \"C\"",
-        OrderKey::Progress => "(progress::json ->> 'fraction')::float8",
-        OrderKey::Wear => {
-            "GREATEST((summary::json #>> '{receptacle,max_depth_mm}')::float8, (summary::json #>> '{slider,max_depth_mm}')::float8)"
-        }
-        OrderKey::Life => LIFE_CYCLES,
+fn push_order_key(query: &mut QueryBuilder<Engine>, filter: &Filter) {
+    match filter.order.key {
+        OrderKey::Created => query.push("id"),
+        OrderKey::Name => query.push(NAME),
+        OrderKey::System => query.push(format!("system{COLLATION}")),
+        OrderKey::Status => query.push(format!("status{COLLATION}")),
+        OrderKey::Progress => query.push(PROGRESS),
+        OrderKey::Wear => query.push(WEAR),
+        OrderKey::Life => query.push(LIFE_CYCLES),
         OrderKey::Duration => {
             // The same on all pages, also of jobs that start or end meanwhile.
             query
                 .push("(CASE WHEN started_at <= ")
                 .push_bind(filter.as_of_ms);
             query
-                .push(" THEN least(coalesce(finished_at, ")
+                .push(format!(" THEN {LEAST}(coalesce(finished_at, "))
                 .push_bind(filter.as_of_ms);
             query.push("), ").push_bind(filter.as_of_ms);
-            ") - started_at END)"
+            query.push(") - started_at END)")
         }
     };
-    query.push(expression);
 }
 
-fn push_conditions(query: &mut QueryBuilder<Postgres>, filter: &Filter) {
-    // No text of the database has the character U+0000, and none can be compared with one that has.
-    query.push(if has_nul(filter) {
-        " WHERE false"
-    } else {
-        " WHERE true"
-    });
-    if has_nul(filter) {
+fn push_conditions(query: &mut QueryBuilder<Engine>, filter: &Filter) {
+    if !STORES_NUL && has_nul(filter) {
+        query.push(" WHERE false");
         return;
     }
+    query.push(" WHERE true");
     if !filter.statuses.is_empty() {
         query.push(" AND status IN (");
         let mut list = query.separated(", ");
@@ -227,28 +224,30 @@ fn push_conditions(query: &mut QueryBuilder<Postgres>, filter: &Filter) {
     }
     if let Some(from) = filter.created_from {
         query.push(" AND created_at >= ").push_bind(from);
-        query.push(" AND id >= ").push_bind(first_created_at(from));
+        query
+            .push(" AND id >= ")
+            .push_bind(stored_id(first_created_at(from)));
     }
     if let Some(before) = filter.created_before {
         query.push(" AND created_at < ").push_bind(before);
         query
             .push(" AND id < ")
-            .push_bind(first_created_before(before));
+            .push_bind(stored_id(first_created_before(before)));
     }
     if let Some(sweep) = filter.sweep {
-        query.push(" AND sweep_id = ").push_bind(sweep);
+        query.push(" AND sweep_id = ").push_bind(stored_id(sweep));
     }
     if let Some(text) = &filter.text {
-        // In the collation "C", `lower` knows ASCII alone: other letters are compared as they are.
         let text = text.to_ascii_lowercase();
+        let [before_name, before_id, before_label, end] = SEARCH;
         query
-            .push(" AND (strpos(lower(coalesce(spec::json ->> 'name', '') COLLATE \"C\"), ")
+            .push(before_name)
             .push_bind(text.clone())
-            .push(") > 0 OR strpos(id::text, ")
+            .push(before_id)
             .push_bind(text.clone())
-            .push(") > 0 OR id IN (SELECT job_id FROM labels WHERE strpos(lower(value COLLATE \"C\"), ")
+            .push(before_label)
             .push_bind(text)
-            .push(") > 0))");
+            .push(end);
     }
 }
 

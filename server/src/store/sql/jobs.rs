@@ -1,20 +1,19 @@
-//! Reading, cancelling, deleting and inserting jobs.
+//! Reading, cancelling and deleting of jobs, and what queues them again.
 
 use api::job::Status;
 use uuid::Uuid;
 
+use super::dialect::{EngineStore, stored_id};
+use super::job_rows::{cancel, lock, retry};
+use super::selects::select;
 use crate::store::document::document;
 use crate::store::rows::StoredRow;
-use crate::store::sqlite::SqliteStore;
-use crate::store::sqlite::job_rows::{cancel, retry, status_of};
-use crate::store::sqlite::queries::BEGIN;
-use crate::store::sqlite::selects::select;
 use crate::store::{Cancelled, Deleted, Filter, ListPlace, Retried, StoreError, StoredJob};
 
-impl SqliteStore {
+impl EngineStore {
     pub(in crate::store) async fn job(&self, id: Uuid) -> Result<Option<StoredJob>, StoreError> {
         let mut query = select();
-        query.push(" WHERE id = ").push_bind(id.to_string());
+        query.push(" WHERE id = ").push_bind(stored_id(id));
         let Some(row) = query.build().fetch_optional(&self.readers).await? else {
             return Ok(None);
         };
@@ -28,27 +27,29 @@ impl SqliteStore {
     }
 
     pub(in crate::store) async fn sent_spec(&self, id: Uuid) -> Result<Option<String>, StoreError> {
-        let sent = sqlx::query_scalar("SELECT spec FROM sent_specifications WHERE job_id = ?")
-            .bind(id.to_string());
-        Ok(sent.fetch_optional(&self.readers).await?)
+        let sent = sqlx::query_scalar("SELECT spec FROM sent_specifications WHERE job_id = $1");
+        Ok(sent
+            .bind(stored_id(id))
+            .fetch_optional(&self.readers)
+            .await?)
     }
 
     pub(in crate::store) async fn cancel(&self, id: Uuid) -> Result<Option<Cancelled>, StoreError> {
         let write = async || {
-            let mut transaction = self.writer.begin_with(BEGIN).await?;
-            let effect = cancel(&mut transaction, id, self.local.clock.now()).await?;
+            let (mut transaction, now) = self.begin().await?;
+            let effect = cancel(&mut transaction, id, now).await?;
             transaction.commit().await?;
             Ok(effect)
         };
-        let effect = self.local.disk.with_reserve(write).await?;
+        let effect = self.with_reserve(write).await?;
         self.local.cancelled(id, effect);
         Ok(effect)
     }
 
     pub(in crate::store) async fn retry(&self, id: Uuid) -> Result<Option<Retried>, StoreError> {
         self.local.disk.check()?;
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let effect = retry(&mut transaction, id, self.local.clock.now()).await?;
+        let (mut transaction, now) = self.begin().await?;
+        let effect = retry(&mut transaction, id, now).await?;
         transaction.commit().await?;
         if effect == Some(Retried::Queued) {
             self.local.concluded(id, Some(Status::Queued));
@@ -62,10 +63,10 @@ impl SqliteStore {
     ) -> Result<(u64, Option<ListPlace>), StoreError> {
         self.local.disk.check()?;
         let ids = self.ids(filter).await?;
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let now = self.local.clock.now();
+        let (mut transaction, now) = self.begin().await?;
         let mut retried = Vec::with_capacity(ids.len());
-        for id in &ids {
+        // In the order in which others lock them.
+        for id in ids.iter().rev() {
             if retry(&mut transaction, *id, now).await? == Some(Retried::Queued) {
                 retried.push(*id);
             }
@@ -80,11 +81,7 @@ impl SqliteStore {
     }
 
     pub(in crate::store) async fn delete(&self, id: Uuid) -> Result<Deleted, StoreError> {
-        let effect = self
-            .local
-            .disk
-            .with_reserve(|| self.delete_rows(id))
-            .await?;
+        let effect = self.with_reserve(|| self.delete_rows(id)).await?;
         if effect == Deleted::Done {
             self.local.remove_files(id).await;
         }
@@ -93,13 +90,13 @@ impl SqliteStore {
     }
 
     async fn delete_rows(&self, id: Uuid) -> Result<Deleted, StoreError> {
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let effect = match status_of(&mut transaction, id).await? {
+        let (mut transaction, _) = self.begin().await?;
+        let effect = match lock(&mut transaction, id).await? {
             None => Deleted::Missing,
             Some(status) if !status.is_terminal() => Deleted::Active,
             Some(_) => {
-                sqlx::query("DELETE FROM jobs WHERE id = ?")
-                    .bind(id.to_string())
+                sqlx::query("DELETE FROM jobs WHERE id = $1")
+                    .bind(stored_id(id))
                     .execute(&mut *transaction)
                     .await?;
                 Deleted::Done

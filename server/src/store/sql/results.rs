@@ -6,11 +6,11 @@ use solver::record::CycleReport;
 use sqlx::AssertSqlSafe;
 use uuid::Uuid;
 
-use crate::store::postgres::PostgresStore;
+use super::dialect::{EngineStore, stored_id};
 use crate::store::rows::{integer, parsed, snapshot};
 use crate::store::{SnapshotPart, StoreError};
 
-impl PostgresStore {
+impl EngineStore {
     pub(in crate::store) async fn history_rows(
         &self,
         id: Uuid,
@@ -19,7 +19,7 @@ impl PostgresStore {
         let text = sqlx::query_scalar::<_, String>(
             "SELECT data FROM history_rows WHERE job_id = $1 ORDER BY cycle",
         );
-        let texts = text.bind(id).fetch(&self.readers);
+        let texts = text.bind(stored_id(id)).fetch(&self.readers);
         let rows = texts.map(|text| parsed(id, "history row", &text?));
         rows.try_collect().await
     }
@@ -35,7 +35,7 @@ impl PostgresStore {
             "SELECT {column} FROM snapshots WHERE job_id = $1 ORDER BY abs(cycle - $2), cycle LIMIT 1"
         );
         let found = sqlx::query_scalar(AssertSqlSafe(sql))
-            .bind(id)
+            .bind(stored_id(id))
             .bind(cycle.map_or(i64::MAX, integer))
             .fetch_optional(&self.readers)
             .await?;
@@ -49,7 +49,7 @@ impl PostgresStore {
         let rows: Vec<(String, String, String)> = sqlx::query_as(
             "SELECT profile, pressure, friction_loop FROM snapshots WHERE job_id = $1 ORDER BY cycle",
         )
-        .bind(id)
+        .bind(stored_id(id))
         .fetch_all(&self.readers)
         .await?;
         rows.iter().map(|texts| snapshot(id, texts)).collect()
