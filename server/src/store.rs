@@ -1,7 +1,8 @@
 //! The store: jobs, batches, events and results, durable. The only place with SQL.
 //!
 //! The types of this module and of its files are the contract of every storage engine; the SQL of an engine, its
-//! connections and its rows are below a folder of its own (`store/sqlite/`, `store/postgres/`). Nothing outside of the store knows
+//! connections and its rows are below a folder of its own (`store/sqlite/`, `store/postgres/`). Statements that differ in no more than names
+//! stand once, in `store/sql/`: each engine compiles them as modules of its own, with its `dialect`. Nothing outside of the store knows
 //! which engine it is. The tests in `store/tests/` are those of the contract, and run on both.
 //!
 //! # Guarantees

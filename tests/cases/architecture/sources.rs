@@ -73,7 +73,8 @@ impl Sources {
         };
         let mut parsed = Vec::new();
         let top = workspace.join(name).join("src");
-        sources.read_file(&top.join("lib.rs"), &top, None, &mut parsed);
+        let lib = top.join("lib.rs");
+        sources.read_file(&lib, &lib, &top, None, &mut parsed);
         let root = format!("{}/", workspace.display());
         for file in &mut sources.files {
             *file = file.replacen(&root, "", 1);
@@ -82,10 +83,12 @@ impl Sources {
         sources
     }
 
-    /// Adds the module of a file, whose child modules lie in `folder`; returns its number.
+    /// Adds the module of a file, whose child modules lie in `folder`; returns its number. A file that several rooms compile
+    /// (`#[path = ".."]`) counts as one of each.
     fn read_file(
         &mut self,
         path: &Path,
+        counted_as: &Path,
         folder: &Path,
         parent: Option<usize>,
         parsed: &mut Vec<(usize, syn::File)>,
@@ -94,7 +97,7 @@ impl Sources {
             fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         let file =
             syn::parse_file(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        self.files.push(path.display().to_string());
+        self.files.push(counted_as.display().to_string());
         let module = self.add_module(self.files.len() - 1, parent);
         self.read_items(&file.items, module, folder, parsed);
         parsed.push((module, file));
@@ -129,8 +132,12 @@ impl Sources {
                         self.read_items(items, child, &below, parsed);
                         child
                     } else {
-                        let path = folder.join(format!("{name}.rs"));
-                        self.read_file(&path, &below, Some(module), parsed)
+                        let own = folder.join(format!("{name}.rs"));
+                        let given = given_path(&inner.attrs);
+                        // It is relative to the folder of the file that declares the module.
+                        let given = given.and_then(|given| Some(folder.parent()?.join(given)));
+                        let path = given.as_ref().unwrap_or(&own);
+                        self.read_file(path, &own, &below, Some(module), parsed)
                     };
                     self.modules[module].children.insert(name, child);
                 }
@@ -145,6 +152,21 @@ impl Sources {
                 other => self.modules[module].items.extend(defined_name(other)),
             }
         }
+    }
+}
+
+/// The path of a module's file where an attribute gives it.
+fn given_path(attributes: &[syn::Attribute]) -> Option<String> {
+    let value = attributes.iter().find_map(|attribute| {
+        let pair = attribute.meta.require_name_value().ok()?;
+        pair.path.is_ident("path").then_some(&pair.value)
+    })?;
+    match value {
+        syn::Expr::Lit(syn::ExprLit {
+            lit: syn::Lit::Str(path),
+            ..
+        }) => Some(path.value()),
+        _ => None,
     }
 }
 
