@@ -80,7 +80,8 @@ fn counted_work_of_plated_lives_is_near_the_plan() {
 const WIDENED: f64 = 0.18;
 
 /// The plated fuzz button at loose tolerances: its plan does not foresee that its zones are widened, which takes 2.8 times the unknowns
-/// and up to 5 times the memory, and 1.3 times the processor time.
+/// and up to 5 times the memory, and 1.3 times the processor time. Zones overlap by the widest contact and 16 nodes. An increment needs the
+/// nodes of the last contact, too: 80 that it leaves and 29 that it travels, of 103, at a tolerance of 10 %; 133 of 131 at 1 %.
 fn widens(scene: &str, tolerance: f64, what: &str) -> bool {
     scene == "fuzz_button" && tolerance > 0.02 && matches!(what, "dofs" | "memory_mb")
 }
