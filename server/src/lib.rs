@@ -1,5 +1,4 @@
 #![doc = include_str!("../README.md")]
-
 #![expect(
     clippy::duplicate_mod,
     reason = "both engines of the store compile the statements in `store/sql/`, each with its own types"

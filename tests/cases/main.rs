@@ -25,6 +25,7 @@ mod command_line;
 mod contact_resistance;
 mod docker_files;
 mod every_system_from_its_kind_alone;
+mod example_answers;
 mod extruded_contact;
 mod failing_log;
 mod fault_injection;

@@ -7,6 +7,7 @@
 //! cargo run --release -- openapi > api/openapi.json
 //! ```
 
+mod answers;
 mod examples;
 mod parameters;
 pub(in crate::http) mod problems;
@@ -15,7 +16,7 @@ mod specification;
 use std::sync::OnceLock;
 
 use crate::http::problem::MEDIA_TYPE;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use solver::record::{Channels, CycleReport, ResistanceReport, SideReport, TemperatureReport};
 
 /// Status and description of the problems of operations with a body, which is always a specification or contains one.
@@ -74,7 +75,8 @@ fn complete(document: &mut Value) {
         "scheme": "bearer",
         "description": "Access token of the service; required if one is configured"
     });
-    document["components"]["examples"] = problems::examples().into();
+    let examples = problems::examples().into_iter().chain(answers::examples());
+    document["components"]["examples"] = examples.collect::<Map<_, _>>().into();
     document["security"] = json!([{}, {"token": []}]);
     let schemas = &mut document["components"]["schemas"];
     specification::complete(schemas);
@@ -88,6 +90,7 @@ fn complete(document: &mut Value) {
             complete_operation(identified(path), operation);
             problems::complete(path, method, operation);
             examples::complete(path, operation);
+            answers::complete(path, operation);
         }
     }
 }
