@@ -40,8 +40,12 @@ mod batches;
 mod checkpoints;
 #[path = "sql/events.rs"]
 mod events;
+#[path = "sql/expansion_rows.rs"]
+mod expansion_rows;
 #[path = "sql/files.rs"]
 mod files;
+#[path = "sql/held_leases.rs"]
+mod held_leases;
 #[path = "sql/job_list.rs"]
 mod job_list;
 #[path = "sql/job_rows.rs"]
@@ -50,6 +54,8 @@ mod job_rows;
 mod jobs;
 #[path = "sql/maintenance.rs"]
 mod maintenance;
+#[path = "sql/object_store.rs"]
+mod object_store;
 #[path = "sql/results.rs"]
 mod results;
 #[path = "sql/selects.rs"]

@@ -8,7 +8,8 @@ use crate::store::batches::NewBatch;
 use crate::store::job_ids::new_id;
 use crate::store::postgres::PostgresStore;
 use crate::store::postgres::batches::submitted;
-use crate::store::postgres::expansions::{insert_expansion, insert_jobs};
+use crate::store::postgres::expansion_rows::insert_expansion;
+use crate::store::postgres::expansions::insert_jobs;
 use crate::store::{RequestKey, StoreError, Submitted};
 
 impl PostgresStore {

@@ -1,7 +1,7 @@
 //! PostgreSQL by the names that `store/sql/` uses: its types, the form of stored ids, and the fragments of SQL in which it differs.
 
 use sqlx::pool::PoolConnection;
-use sqlx::{Postgres, Transaction};
+use sqlx::{Pool, Postgres, Transaction};
 use uuid::Uuid;
 
 use crate::clock::Now;
@@ -84,6 +84,11 @@ impl EngineStore {
         let mut connection = self.readers.acquire().await?;
         let now = self.now(&mut connection).await?;
         Ok((connection, now))
+    }
+
+    /// Connections for reads that must not wait for those of users.
+    pub(super) fn unhindered(&self) -> &Pool<Engine> {
+        &self.writer
     }
 
     /// Begins a transaction whose reads are as of one time.

@@ -5,11 +5,9 @@ use uuid::Uuid;
 
 use crate::clock::Now;
 use crate::store::StoreError;
-use crate::store::batch_rows::expansion;
-use crate::store::batches::{Expansion, NewBatchJob, NewExpansion, Portion};
-use crate::store::gauges::UNKNOWN_CPU_MS;
+use crate::store::batches::{NewBatchJob, Portion};
 use crate::store::job_ids::new_id;
-use crate::store::new_row::{NewRow, estimated};
+use crate::store::new_row::NewRow;
 use crate::store::postgres::PostgresStore;
 use crate::store::postgres::insertion::insert;
 use crate::store::rows::integer;
@@ -18,27 +16,6 @@ use crate::store::rows::integer;
 const ROWS: usize = 32;
 
 impl PostgresStore {
-    pub(in crate::store) async fn expansions(&self) -> Result<Vec<Expansion>, StoreError> {
-        let rows = sqlx::query(
-            "SELECT sweep_id, next, jobs, (SELECT count(*) FROM jobs WHERE jobs.sweep_id = expansions.sweep_id \
-             AND status = 'queued') AS waiting FROM expansions WHERE NOT is_over ORDER BY sweep_id",
-        )
-        .fetch_all(&self.readers)
-        .await?;
-        rows.iter().map(expansion).collect()
-    }
-
-    pub(in crate::store) async fn expansion_request(
-        &self,
-        batch: Uuid,
-    ) -> Result<Option<String>, StoreError> {
-        let request = sqlx::query_scalar(
-            "SELECT request FROM expansions WHERE sweep_id = $1 AND NOT is_over",
-        )
-        .bind(batch);
-        Ok(request.fetch_optional(&self.readers).await?)
-    }
-
     pub(in crate::store) async fn extend_batch(
         &self,
         portion: &Portion,
@@ -80,25 +57,6 @@ impl PostgresStore {
         self.local.many_wait();
         Ok(true)
     }
-}
-
-/// Notes the jobs that are to be queued.
-pub(super) async fn insert_expansion(
-    connection: &mut PgConnection,
-    batch: Uuid,
-    expansion: &NewExpansion,
-) -> Result<(), StoreError> {
-    sqlx::query(
-        "INSERT INTO expansions (sweep_id, request, jobs, next, cpu_ms) VALUES ($1, $2, $3, $4, $5)",
-    )
-    .bind(batch)
-    .bind(&expansion.request)
-    .bind(integer(expansion.jobs))
-    .bind(integer(expansion.next))
-    .bind(expansion.cpu_s.map_or(UNKNOWN_CPU_MS, |s| estimated(s, 1e3)))
-    .execute(connection)
-    .await?;
-    Ok(())
 }
 
 /// Queues jobs of a batch.

@@ -58,39 +58,6 @@ impl PostgresStore {
         Ok(transaction.commit().await?)
     }
 
-    pub(in crate::store) async fn removes_objects(&self) -> Result<bool, StoreError> {
-        let removes =
-            sqlx::query_scalar("SELECT EXISTS (SELECT 1 FROM object_store WHERE removes)");
-        Ok(removes.fetch_one(&self.writer).await?)
-    }
-
-    pub(in crate::store) async fn are_objects_marked(
-        &self,
-        address: &str,
-    ) -> Result<bool, StoreError> {
-        let marked = sqlx::query_scalar(
-            "SELECT EXISTS (SELECT 1 FROM object_store WHERE is_marked AND address = $1)",
-        );
-        Ok(marked.bind(address).fetch_one(&self.writer).await?)
-    }
-
-    pub(in crate::store) async fn note_mark_of_objects(
-        &self,
-        address: &str,
-    ) -> Result<bool, StoreError> {
-        let noted = sqlx::query("UPDATE object_store SET is_marked = true WHERE address = $1")
-            .bind(address)
-            .execute(&self.writer)
-            .await?;
-        Ok(noted.rows_affected() > 0)
-    }
-
-    pub(in crate::store) async fn any_object(&self) -> Result<Option<String>, StoreError> {
-        let key =
-            sqlx::query_scalar("SELECT object FROM result_blocks WHERE object IS NOT NULL LIMIT 1");
-        Ok(key.fetch_optional(&self.writer).await?)
-    }
-
     /// The process that holds a lock moves results, as long as its connection lives. Another one may take over while this one still
     /// writes objects: what it is about to remove cannot be named any more.
     pub(in crate::store) async fn moves_results(&self) -> Result<bool, StoreError> {
@@ -164,16 +131,6 @@ impl PostgresStore {
             .bind(keys)
             .execute(&self.writer)
             .await?;
-        Ok(())
-    }
-
-    pub(in crate::store) async fn keep_results(&self, id: Uuid) -> Result<(), StoreError> {
-        sqlx::query(
-            "UPDATE result_blocks SET is_movable = false WHERE job_id = $1 AND object IS NULL",
-        )
-        .bind(id)
-        .execute(&self.writer)
-        .await?;
         Ok(())
     }
 }

@@ -9,12 +9,11 @@ use crate::store::rows::integer;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::batch_endings::is_active;
 use crate::store::sqlite::job_rows::cancel;
-use crate::store::sqlite::queries::BEGIN;
 
 impl SqliteStore {
     pub(in crate::store) async fn cancel_some(&self, batch: Uuid) -> Result<bool, StoreError> {
         let write = async || {
-            let mut transaction = self.writer.begin_with(BEGIN).await?;
+            let (mut transaction, now) = self.begin().await?;
             let jobs: Vec<Hyphenated> = sqlx::query_scalar(
                 "SELECT id FROM jobs WHERE sweep_id = ? AND status IN ('queued', 'running') \
                  AND (status = 'queued' OR NOT cancel_requested) LIMIT ?",
@@ -23,7 +22,6 @@ impl SqliteStore {
             .bind(JOBS_AT_ONCE)
             .fetch_all(&mut *transaction)
             .await?;
-            let now = self.local.clock.now();
             let mut effects = Vec::with_capacity(jobs.len());
             for job in jobs.into_iter().map(Uuid::from) {
                 effects.push((job, cancel(&mut transaction, job, now).await?));
@@ -40,7 +38,7 @@ impl SqliteStore {
 
     pub(in crate::store) async fn delete_some(&self, batch: Uuid) -> Result<bool, StoreError> {
         let write = async || {
-            let mut transaction = self.writer.begin_with(BEGIN).await?;
+            let (mut transaction, _) = self.begin().await?;
             if is_active(&mut transaction, batch).await? {
                 return Ok(None);
             }

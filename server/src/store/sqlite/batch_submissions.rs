@@ -8,7 +8,8 @@ use crate::store::batches::NewBatch;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::batches::submitted;
 use crate::store::sqlite::dialect::stored_id;
-use crate::store::sqlite::expansions::{insert_expansion, insert_jobs};
+use crate::store::sqlite::expansion_rows::insert_expansion;
+use crate::store::sqlite::expansions::insert_jobs;
 use crate::store::{RequestKey, StoreError, Submitted};
 
 impl SqliteStore {

@@ -9,7 +9,7 @@ use crate::queue::admit;
 use crate::store::candidates::Candidate;
 use crate::store::rows;
 use crate::store::rows::{StoredRow, integer};
-use crate::store::sqlite::queries::{BEGIN, insert_attempt_event};
+use crate::store::sqlite::queries::insert_attempt_event;
 use crate::store::sqlite::{SqliteStore, checkpoints};
 use crate::store::workers::present_from;
 use crate::store::{Claim, ClaimRequest, ClaimedCheckpoint, Lease, StoreError};
@@ -23,11 +23,11 @@ impl SqliteStore {
         request: &ClaimRequest,
     ) -> Result<Vec<Claim>, StoreError> {
         self.local.disk.check()?;
-        let (now, expires_at) = (
+        let (_now, expires_at) = (
             self.local.clock.now(),
             self.local.clock.end_of(request.lease),
         );
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let (mut transaction, now) = self.begin().await?;
         let known = claimed_before(&mut transaction, request, (now, expires_at)).await?;
         if !known.is_empty() {
             transaction.commit().await?;

@@ -1,7 +1,7 @@
 //! SQLite by the names that `store/sql/` uses: its types, the form of stored ids, and the fragments of SQL in which it differs.
 
 use sqlx::pool::PoolConnection;
-use sqlx::{Sqlite, Transaction};
+use sqlx::{Pool, Sqlite, Transaction};
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
@@ -85,6 +85,11 @@ impl EngineStore {
     /// A connection that reads, and the present time.
     pub(super) async fn read(&self) -> Result<(PoolConnection<Engine>, Now), StoreError> {
         Ok((self.readers.acquire().await?, self.local.clock.now()))
+    }
+
+    /// Connections for reads that must not wait for those of users: reads of a file wait for nothing.
+    pub(super) fn unhindered(&self) -> &Pool<Engine> {
+        &self.readers
     }
 
     /// Begins a transaction whose reads are as of one time.

@@ -11,16 +11,14 @@ use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
-use crate::queue::Transition;
 use crate::store::ending::EndingJob;
 use crate::store::local::log_lost_writes;
 use crate::store::rows::integer;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::blocks::insert_block;
-use crate::store::sqlite::checkpoint_objects::delete_results_after;
 use crate::store::sqlite::checkpoints;
 use crate::store::sqlite::new_files::insert_files;
-use crate::store::sqlite::queries::{BEGIN, insert_attempt_event, insert_event};
+use crate::store::sqlite::queries::insert_event;
 use crate::store::sqlite::transitions::end_job_at;
 use crate::store::{End, JobUpdate, Lease, LeaseState, StoreError};
 
@@ -82,27 +80,6 @@ impl SqliteStore {
         .fetch_optional(&mut **transaction)
         .await?;
         Ok(self.local.written_before(lease, number, held))
-    }
-
-    pub(in crate::store) async fn renew(
-        &self,
-        lease: impl Into<Lease>,
-        length: Duration,
-    ) -> Result<LeaseState, StoreError> {
-        let lease = lease.into();
-        let write = async || {
-            let cancel_requested = sqlx::query_scalar(
-                "UPDATE jobs SET lease_expires_at = ? WHERE id = ? AND lease = ? AND status = 'running' \
-                 RETURNING cancel_requested",
-            )
-            .bind(self.local.clock.end_of(length))
-            .bind(lease.job.to_string())
-            .bind(lease.number)
-            .fetch_optional(&self.writer)
-            .await?;
-            Ok(LeaseState::of(cancel_requested))
-        };
-        self.local.disk.with_reserve(write).await
     }
 
     pub(in crate::store) async fn owned(
@@ -172,49 +149,6 @@ impl SqliteStore {
         Ok(states)
     }
 
-    pub(in crate::store) async fn lease_state(
-        &self,
-        lease: impl Into<Lease>,
-    ) -> Result<LeaseState, StoreError> {
-        let lease = lease.into();
-        let cancel_requested = sqlx::query_scalar(
-            "SELECT cancel_requested FROM jobs WHERE id = ? AND lease = ? AND status = 'running'",
-        )
-        .bind(lease.job.to_string())
-        .bind(lease.number)
-        .fetch_optional(&self.readers)
-        .await?;
-        Ok(LeaseState::of(cancel_requested))
-    }
-
-    pub(in crate::store) async fn restart(
-        &self,
-        lease: impl Into<Lease>,
-        number: i64,
-    ) -> Result<LeaseState, StoreError> {
-        self.local.disk.check()?;
-        let lease = lease.into();
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
-        let held: Option<(i64, bool, u32)> = sqlx::query_as(
-            "UPDATE jobs SET last_write = ?1, last_event = last_event + 1, version = version + 1, fruitless = max(fruitless, 1) \
-             WHERE id = ?2 AND lease = ?3 AND status = 'running' AND last_write < ?1 \
-             RETURNING last_event, cancel_requested, attempts",
-        )
-        .bind(number)
-        .bind(lease.job.to_string())
-        .bind(lease.number)
-        .fetch_optional(&mut *transaction)
-        .await?;
-        let Some((event, cancel_requested, attempt)) = held else {
-            return self.written_before(&mut transaction, lease, number).await;
-        };
-        delete_results_after(&mut transaction, lease.job, None).await?;
-        insert_attempt_event(&mut transaction, lease.job, event, attempt, 0).await?;
-        transaction.commit().await?;
-        self.local.changed(lease.job);
-        Ok(LeaseState::Held { cancel_requested })
-    }
-
     pub(in crate::store) async fn write_end(
         &self,
         lease: Lease,
@@ -231,7 +165,7 @@ impl SqliteStore {
         update: &JobUpdate,
         end: &End,
     ) -> Result<Option<Status>, StoreError> {
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let (mut transaction, now) = self.begin().await?;
         let held = sqlx::query_as(
             "UPDATE jobs SET last_write = ?1 WHERE id = ?2 AND lease = ?3 AND status = 'running' AND last_write = ?1 - 1 \
              RETURNING fruitless, cancel_requested",
@@ -254,7 +188,6 @@ impl SqliteStore {
             cancel_requested,
         );
         let progress = serde_json::to_string(&update.progress)?;
-        let now = self.local.clock.now();
         let status = end_job_at(&mut transaction, &job, end, Some(&progress), now).await?;
         if let Some(block) = &update.block {
             let succeeded = status == Some(Status::Succeeded);
@@ -288,27 +221,6 @@ impl SqliteStore {
         }
         self.local.stale_write();
         Ok(None)
-    }
-
-    pub(in crate::store) async fn is_final(
-        &self,
-        lease: impl Into<Lease>,
-        transition: Transition,
-        cancel_requested: bool,
-    ) -> Result<bool, StoreError> {
-        let lease = lease.into();
-        let fruitless: Option<u32> = sqlx::query_scalar("SELECT fruitless FROM jobs WHERE id = ?")
-            .bind(lease.job.to_string())
-            .fetch_optional(&self.readers)
-            .await?;
-        let fruitless = fruitless.unwrap_or_default();
-        let job = EndingJob::running(
-            lease.job,
-            fruitless,
-            self.local.attempt_limit,
-            cancel_requested,
-        );
-        Ok(job.after(transition).is_some_and(Status::is_terminal))
     }
 }
 

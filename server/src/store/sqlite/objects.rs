@@ -9,7 +9,6 @@ use crate::store::StoreError;
 use crate::store::checkpoint_object::REMOVED_AFTER_MS;
 use crate::store::results_to_move::Moved;
 use crate::store::sqlite::SqliteStore;
-use crate::store::sqlite::queries::BEGIN;
 
 /// Statements that delete the rows of a job (`?1`) that its object replaces, beside the content of its block.
 pub(super) const REMOVALS: [&str; 2] = [
@@ -30,7 +29,7 @@ impl SqliteStore {
         &self,
         address: &str,
     ) -> Result<(), StoreError> {
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let (mut transaction, _) = self.begin().await?;
         let updated = sqlx::query(
             "UPDATE object_store SET address = ?1, is_marked = is_marked AND address = ?1",
         )
@@ -48,39 +47,6 @@ impl SqliteStore {
                 .await?;
         }
         Ok(transaction.commit().await?)
-    }
-
-    pub(in crate::store) async fn removes_objects(&self) -> Result<bool, StoreError> {
-        let removes =
-            sqlx::query_scalar("SELECT EXISTS (SELECT 1 FROM object_store WHERE removes)");
-        Ok(removes.fetch_one(&self.writer).await?)
-    }
-
-    pub(in crate::store) async fn are_objects_marked(
-        &self,
-        address: &str,
-    ) -> Result<bool, StoreError> {
-        let marked = sqlx::query_scalar(
-            "SELECT EXISTS (SELECT 1 FROM object_store WHERE is_marked AND address = ?)",
-        );
-        Ok(marked.bind(address).fetch_one(&self.writer).await?)
-    }
-
-    pub(in crate::store) async fn note_mark_of_objects(
-        &self,
-        address: &str,
-    ) -> Result<bool, StoreError> {
-        let noted = sqlx::query("UPDATE object_store SET is_marked = 1 WHERE address = ?")
-            .bind(address)
-            .execute(&self.writer)
-            .await?;
-        Ok(noted.rows_affected() > 0)
-    }
-
-    pub(in crate::store) async fn any_object(&self) -> Result<Option<String>, StoreError> {
-        let key =
-            sqlx::query_scalar("SELECT object FROM result_blocks WHERE object IS NOT NULL LIMIT 1");
-        Ok(key.fetch_optional(&self.writer).await?)
     }
 
     #[expect(
@@ -107,7 +73,7 @@ impl SqliteStore {
     }
 
     pub(in crate::store) async fn note_unnamed(&self, keys: &[String]) -> Result<(), StoreError> {
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let (mut transaction, _) = self.begin().await?;
         for key in keys {
             sqlx::query("INSERT INTO unnamed_objects (key) VALUES (?)")
                 .bind(key)
@@ -132,19 +98,11 @@ impl SqliteStore {
     }
 
     pub(in crate::store) async fn forget_unnamed(&self, keys: &[String]) -> Result<(), StoreError> {
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let (mut transaction, _) = self.begin().await?;
         for key in keys {
             forget(&mut transaction, key).await?;
         }
         Ok(transaction.commit().await?)
-    }
-
-    pub(in crate::store) async fn keep_results(&self, id: Uuid) -> Result<(), StoreError> {
-        sqlx::query("UPDATE result_blocks SET is_movable = 0 WHERE job_id = ? AND object IS NULL")
-            .bind(id.to_string())
-            .execute(&self.writer)
-            .await?;
-        Ok(())
     }
 
     pub(in crate::store) async fn name_objects(
@@ -153,7 +111,7 @@ impl SqliteStore {
     ) -> Result<Vec<Uuid>, StoreError> {
         let write = async || {
             let mut named = Vec::with_capacity(moved.len());
-            let mut transaction = self.writer.begin_with(BEGIN).await?;
+            let (mut transaction, _) = self.begin().await?;
             for results in moved {
                 if name_object(&mut transaction, results).await? {
                     named.push(results.id);

@@ -11,7 +11,6 @@ use crate::store::leases;
 use crate::store::leases::ENDED_BY_RESTORE;
 use crate::store::rows;
 use crate::store::sqlite::SqliteStore;
-use crate::store::sqlite::queries::BEGIN;
 use crate::store::sqlite::transitions::end_job;
 use crate::store::{Lease, Reclaimed, StoreError};
 
@@ -54,8 +53,7 @@ impl SqliteStore {
         length: Duration,
         reason: &'static str,
     ) -> Result<Reclaimed, StoreError> {
-        let now = self.local.clock.now();
-        let mut transaction = self.writer.begin_with(BEGIN).await?;
+        let (mut transaction, now) = self.begin().await?;
         let lost: Vec<(Hyphenated, u32, bool, i64)> = match lost {
             Lost::EndedBy(by) => sqlx::query_as(
                 "SELECT id, fruitless, cancel_requested, lease_expires_at FROM jobs INDEXED BY jobs_leased \
