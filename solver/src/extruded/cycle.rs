@@ -297,12 +297,12 @@ impl Contact {
         let slide = Slide {
             slider_x: to,
             cycles,
+            starts: starts.as_deref(),
         };
-        let from = (&self.planes.contacts[..], starts.as_deref());
-        let into = (&mut self.next[..], &mut self.worn[..]);
-        let solved = self
-            .solver
-            .advance(&extruded, &surfaces, from, slide, into)?;
+        let (last, next) = (&self.planes.contacts, &mut self.next);
+        let solved =
+            self.solver
+                .advance(&extruded, &surfaces, last, slide, next, &mut self.worn)?;
         for (state, worn) in self.planes.states.iter().zip(&self.worn) {
             let worn = (worn.first, worn.recession.as_slices());
             wear_limit::check(&self.spines, &state.depth, to, worn)?;

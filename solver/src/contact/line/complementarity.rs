@@ -98,7 +98,7 @@ impl Complementarity {
                 continue;
             }
             self.warm_start(it);
-            end = newton.solve(problem, response, wear, it, (ITERATIONS_AFTER, false));
+            end = newton.solve(problem, response, wear, it, ITERATIONS_AFTER, false);
             if matches!(end, Convergence::Converged) {
                 return end;
             }

@@ -39,7 +39,8 @@ impl Deformation {
         &mut self,
         zones: Zones<'_>,
         coupling: &Coupling,
-        (node, [x, y]): (usize, [f64; 2]),
+        node: usize,
+        [x, y]: [f64; 2],
         nodes: Range<usize>,
     ) {
         let masters = coupling.masters(&nodes);
@@ -86,10 +87,9 @@ impl Deformation {
         let (begin, end) = coupling.master_range;
         self.reset(coupling.first..coupling.end, begin..end);
         let master = slave.other();
-        let displaced = (&self.masters, &mut self.master[..]);
-        add_forces(displaced, zones.master, contact, master);
-        let displaced = (&self.nodes, &mut self.slave[..]);
-        add_forces(displaced, zones.slave, contact, slave);
+        let (masters, nodes) = (&self.masters, &self.nodes);
+        add_forces(&mut self.master, masters, zones.master, contact, master);
+        add_forces(&mut self.slave, nodes, zones.slave, contact, slave);
     }
 
     /// Relative displacements at the nodes: the master's, averaged, and the slave's.
@@ -135,7 +135,8 @@ fn add_force(
 
 /// Displaces some nodes of a body by the forces of a contact.
 fn add_forces(
-    (nodes, displacement): (&Range<usize>, &mut [f64]),
+    displacement: &mut [f64],
+    nodes: &Range<usize>,
     zone: &ZoneOperators,
     contact: &ContactState,
     side: Side,

@@ -10,6 +10,7 @@ use super::pair::{Pair, Surfaces};
 use crate::law::friction::{of_both, weighted_mean};
 use crate::model::{Interface, Tangential};
 use crate::sides::Sides;
+use std::ops::Range;
 
 /// Coefficient of friction at the coupled nodes, -.
 #[derive(Debug, Clone, Copy)]
@@ -115,12 +116,12 @@ pub(super) fn acting<'a>(
     }
 }
 
-/// Writes the coefficients at the slave's nodes from number `first` to before `end`; none where all places have the same.
+/// Writes the coefficients at these nodes of the slave; none where all places have the same.
 pub(super) fn interpolate(
     pair: &Pair<'_>,
     surfaces: &Surfaces<'_>,
     pairing_x: f64,
-    (first, end): (usize, usize),
+    nodes: Range<usize>,
     coefficients: &mut Vec<f64>,
 ) {
     coefficients.clear();
@@ -142,7 +143,7 @@ pub(super) fn interpolate(
         let share = ((at - x[next - 1]) / (x[next] - x[next - 1])).clamp(0.0, 1.0);
         far[next - 1] + share * (far[next] - far[next - 1])
     };
-    for node in first..end {
+    for node in nodes {
         let mut both = Sides::default();
         *both.of_mut(slave) = own.map(|own| own[node]);
         *both.of_mut(slave.other()) = far.map(|far| opposite(pair.slave().x[node] - offset, far));

@@ -10,7 +10,7 @@ use super::state::ContactState;
 use crate::model::Interface;
 use crate::sides::Side;
 
-/// Position of the slider, and the vertical load at height 0 with its increase per mm of height.
+/// Position of the slider, the vertical load at height 0 with its increase per mm of height, and the scale of the gaps.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Setting {
     /// Imposed displacement, mm.
@@ -21,15 +21,18 @@ pub(super) struct Setting {
     pub(super) load: f64,
     /// Increase per mm of height.
     pub(super) spring: f64,
+    /// Indentation of the last increment, mm.
+    pub(super) indentation: f64,
 }
 
 impl Setting {
-    /// At a position (imposed, of the pairing), after a contact. A given height is the reference of a spring of the contact's modulus
+    /// At an imposed displacement and that of the pairing, after a contact. A given height is the reference of a spring of the contact's modulus
     /// that nothing else loads.
     pub(super) fn new(
         interface: &Interface,
         last: &ContactState,
-        (slider_x, pairing_x): (f64, f64),
+        slider_x: f64,
+        pairing_x: f64,
         height: Option<f64>,
     ) -> Self {
         if let Some(height) = height {
@@ -38,6 +41,7 @@ impl Setting {
                 pairing_x,
                 load: -interface.modulus * height,
                 spring: interface.modulus,
+                indentation: last.indentation,
             };
         }
         // Before the first load the spring has no reference height.
@@ -49,6 +53,7 @@ impl Setting {
             pairing_x,
             load: interface.load - spring * reference,
             spring,
+            indentation: last.indentation,
         }
     }
 }
@@ -65,25 +70,30 @@ pub(super) struct Geometry {
 }
 
 impl Geometry {
-    /// Couples a range of the slave's nodes, which must be covered, to the master, at about this indentation in mm.
+    /// Couples a range of the slave's nodes, which must be covered, to the master.
     pub(super) fn place(
         &mut self,
         pair: &Pair<'_>,
         surfaces: &Surfaces<'_>,
-        (setting, indentation): (Setting, f64),
+        setting: Setting,
         nodes: Range<usize>,
     ) {
-        let pairing_x = setting.pairing_x;
+        let Setting {
+            pairing_x,
+            indentation,
+            ..
+        } = setting;
         self.coupling
             .integrate(pair, pairing_x, nodes.start, nodes.end);
-        share_by_resistance(&mut self.coupling, (pair, surfaces), indentation);
+        share_by_resistance(&mut self.coupling, pair, surfaces, indentation);
         self.slopes.assemble(pair, &self.coupling, surfaces);
     }
 
     /// Measures the gaps of the coupled nodes.
     pub(super) fn measure(
         &mut self,
-        (pair, zones): (&Pair<'_>, Zones<'_>),
+        pair: &Pair<'_>,
+        zones: Zones<'_>,
         surfaces: &Surfaces<'_>,
         setting: Setting,
     ) {

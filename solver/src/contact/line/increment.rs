@@ -8,7 +8,7 @@ use super::friction::{self, Coefficient};
 use super::geometry::{Geometry, Setting};
 use super::mortar;
 use super::newton::{Convergence, Newton};
-use super::outcome::{self, Increment};
+use super::outcome::{self, Increment, Recession, Solution};
 use super::pair::{Displacement, Pair, Surfaces, Zones};
 use super::pairing;
 use super::predictor::{predict, start_from};
@@ -73,43 +73,36 @@ impl Solver {
         } else {
             last.friction
         };
-        let pairing_x = pairing::position(pair, last, (slider_x, friction));
+        let pairing_x = pairing::position(pair, last, slider_x, friction);
         let covered = mortar::covered(pair, pairing_x);
         if covered.0 == covered.1 || pair.interface.load <= 0.0 {
             // Without a load, or where the stroke has taken the slider off the receptacle and a stop holds its height until
             // it returns.
-            next.reset_open(last, (slider_x, slider_x));
+            next.reset_open(last, slider_x, slider_x);
             return Ok(Increment::NONE);
         }
         self.assembled = self.assembled.filter(|_| to.repeated);
-        let setting = Setting::new(&pair.interface, last, (slider_x, pairing_x), to.height);
+        let setting = Setting::new(&pair.interface, last, slider_x, pairing_x, to.height);
         let mut window = self.assembled.unwrap_or_else(|| {
             undeformed_gaps(pair, surfaces, pairing_x, covered, &mut self.undeformed);
             initial_window(pair, last, pairing_x, covered, &self.undeformed)
         });
         for _ in 0..MOST_EXTENSIONS {
-            self.solve_window(pair, surfaces, last, (to, setting), window)?;
-            let (geometry, it) = (&self.geometry, &self.iterate);
-            let directions = &self.along.directions;
-            let friction = Coefficient::of(pair, surfaces, &self.friction, directions);
-            outcome::write(pair, geometry, it, last, (setting, friction), next);
-            let touching =
-                self.touching_beside(pair, surfaces, (last, next), setting, (window, covered))?;
+            self.solve_window(pair, surfaces, last, to, setting, window)?;
+            outcome::write(self.solution(pair, surfaces), pair, last, setting, next);
+            let touching = self.touching_beside(pair, surfaces, next, setting, window, covered)?;
             if touching == window {
-                let (geometry, it) = (&self.geometry, &self.iterate);
-                let directions = &self.along.directions;
-                let friction = Coefficient::of(pair, surfaces, &self.friction, directions);
-                let recession = &mut self.recession;
                 let mut work = std::mem::take(&mut self.newton.work);
                 work.increments = 1;
                 work.response_entries += std::mem::take(&mut self.response.entries);
-                return Ok(Increment::of(
-                    (pair, geometry, it),
-                    (&self.wear, recession),
-                    (next, friction),
-                    (to, self.newton.response_to_height()),
-                    work,
-                ));
+                let (coupling, path) = (&self.geometry.coupling, &self.iterate.path);
+                let area = (self.wear).recession(coupling, pair, path, &mut self.recession);
+                let depth = self.recession.as_slices();
+                let worn = Recession { depth, area };
+                let solution = self.solution(pair, surfaces);
+                let response = self.newton.response_to_height();
+                let increment = Increment::of(solution, worn, pair, next, to, response, work);
+                return Ok(increment);
             }
             window = widened(touching, covered);
         }
@@ -147,10 +140,9 @@ impl Solver {
         let Some((first, end)) = contact.active_range() else {
             return 0.0;
         };
-        let at = (contact.slider_x, contact.pairing_x);
-        let setting = Setting::new(&pair.interface, contact, at, None);
-        self.flank
-            .place(pair, surfaces, (setting, contact.indentation), first..end);
+        let (slider_x, pairing_x) = (contact.slider_x, contact.pairing_x);
+        let setting = Setting::new(&pair.interface, contact, slider_x, pairing_x, None);
+        self.flank.place(pair, surfaces, setting, first..end);
         let slopes = &self.flank.slopes.interface;
         (first..end)
             .zip(slopes)
@@ -164,14 +156,25 @@ impl Solver {
             .sum()
     }
 
+    /// The last solution over the window.
+    fn solution(&self, pair: &Pair<'_>, surfaces: &Surfaces<'_>) -> Solution<'_> {
+        let directions = &self.along.directions;
+        Solution {
+            geometry: &self.geometry,
+            iterate: &self.iterate,
+            friction: Coefficient::of(pair, surfaces, &self.friction, directions),
+        }
+    }
+
     /// The window with the candidates beside it that the bodies' deformation lets touch.
     fn touching_beside(
         &mut self,
         pair: &Pair<'_>,
         surfaces: &Surfaces<'_>,
-        (last, next): (&ContactState, &ContactState),
+        next: &ContactState,
         setting: Setting,
-        (window, covered): ((usize, usize), (usize, usize)),
+        window: (usize, usize),
+        covered: (usize, usize),
     ) -> Result<(usize, usize), ContactError> {
         let it = &self.iterate;
         let slave = pair.interface.slave;
@@ -182,10 +185,10 @@ impl Solver {
                 continue;
             }
             let geometry = &mut self.flank;
-            geometry.place(pair, surfaces, (setting, last.indentation), flank.clone());
+            geometry.place(pair, surfaces, setting, flank.clone());
             let (begin, stop) = geometry.coupling.master_range;
             let zones = pair.zones(next, flank.clone(), begin..stop)?;
-            geometry.measure((pair, zones), surfaces, setting);
+            geometry.measure(pair, zones, surfaces, setting);
             self.deformation
                 .under_contact(zones, slave, &geometry.coupling, next);
             let moved = self.deformation.averaged(&geometry.coupling);
@@ -206,7 +209,8 @@ impl Solver {
         pair: &Pair<'_>,
         surfaces: &Surfaces<'_>,
         last: &ContactState,
-        (to, setting): (Displacement<'_>, Setting),
+        to: Displacement<'_>,
+        setting: Setting,
         (first, end): (usize, usize),
     ) -> Result<(), ContactError> {
         let (slider_x, cycles) = (to.slider_x, to.cycles);
@@ -216,26 +220,25 @@ impl Solver {
         let wear = interface.wear.map(|wear| wear.filter(|_| cycles > 0.0));
         let is_assembled = self.assembled == Some((first, end));
         if !is_assembled {
-            self.geometry
-                .place(pair, surfaces, (setting, last.indentation), first..end);
+            self.geometry.place(pair, surfaces, setting, first..end);
         }
         let (begin, stop) = self.geometry.coupling.master_range;
         let zones = pair.zones(last, first..end, begin..stop)?;
         if !is_assembled {
             let geometry = &mut self.geometry;
-            geometry.measure((pair, zones), surfaces, setting);
+            geometry.measure(pair, zones, surfaces, setting);
             self.response.reset(geometry.coupling.len(), tracks_slip);
-            let worn = (wear, surfaces.depth);
-            self.wear.assemble(&geometry.coupling, pair, worn, cycles);
-            self.assemble_fixed_slip((pair, zones), last, step);
+            self.wear
+                .assemble(&geometry.coupling, pair, &wear, surfaces.depth, cycles);
+            self.assemble_fixed_slip(pair, zones, last, step);
             self.assembled = Some((first, end));
         }
         let geometry = &self.geometry;
-        let (pairing_x, nodes) = (setting.pairing_x, (first, end));
-        friction::interpolate(pair, surfaces, pairing_x, nodes, &mut self.friction);
+        let (pairing_x, coefficients) = (setting.pairing_x, &mut self.friction);
+        friction::interpolate(pair, surfaces, pairing_x, first..end, coefficients);
         let width = &pair.slave().widths[first..end];
         let slope = &geometry.slopes.interface;
-        let mean = mean_slope(last, &geometry.coupling, (width, slope));
+        let mean = mean_slope(last, &geometry.coupling, width, slope);
         let (across, along) = (step, to.along);
         self.along
             .impose(Imposed { across, along }, Slopes { nodes: slope, mean });
@@ -277,7 +280,7 @@ impl Solver {
             0
         };
         let most = MOST_ITERATIONS + single_changes;
-        let mut end = newton.solve(&problem, response, wear, it, (most, is_assembled));
+        let mut end = newton.solve(&problem, response, wear, it, most, is_assembled);
         if to.lemke && !matches!(end, Convergence::Converged) {
             end = self
                 .complementarity
@@ -316,7 +319,8 @@ impl Solver {
     /// forces would make at the new position where the deformation is part of the slip.
     fn assemble_fixed_slip(
         &mut self,
-        (pair, zones): (&Pair<'_>, Zones<'_>),
+        pair: &Pair<'_>,
+        zones: Zones<'_>,
         last: &ContactState,
         step: f64,
     ) {

@@ -131,7 +131,7 @@ impl Coupling {
             let last = j == master.x.len() - 1;
             let right = if last { b } else { b.min(master.x[j] + offset) };
             if right > left {
-                self.integrate_segment(pair, offset, (element, j - 1), (left, right));
+                self.integrate_segment(pair, offset, element, j - 1, left, right);
             }
             left = right;
             j = (j + 1).min(master.x.len() - 1);
@@ -139,12 +139,15 @@ impl Coupling {
         next
     }
 
+    /// Integrates the part of the slave element `e` from `left` to `right`, mm, that faces the master element `m`.
     fn integrate_segment(
         &mut self,
         pair: &Pair<'_>,
         offset: f64,
-        (e, m): (usize, usize),
-        (left, right): (f64, f64),
+        e: usize,
+        m: usize,
+        left: f64,
+        right: f64,
     ) {
         let (slave, master) = (&pair.slave().x, &pair.master().x);
         let dx = right - left;

@@ -99,7 +99,8 @@ impl Newton {
         response: &mut Response,
         wear: &mut WearCoupling,
         it: &mut Iterate,
-        (most_iterations, repeated): (usize, bool),
+        most_iterations: usize,
+        repeated: bool,
     ) -> Convergence {
         let (mut residual, mut changes) = (f64::INFINITY, usize::MAX);
         let (mut renew, mut exact_from) = (true, EXACT_FROM);
@@ -117,8 +118,8 @@ impl Newton {
             }
             let last = (residual, changes);
             let partition = &self.partition;
-            let system = (&mut self.system, renewed || last.1 > 0);
-            if !self.correction.apply(problem, partition, system, it) {
+            let (system, altered) = (&mut self.system, renewed || last.1 > 0);
+            if !(self.correction).apply(problem, partition, system, altered, it) {
                 if self.system.is_hierarchical() {
                     // A cluster of its core may be singular although the core is not.
                     (renew, exact_from) = (true, iteration);
@@ -131,7 +132,7 @@ impl Newton {
             let tolerance = it.tolerance;
             residual = self.evaluate(problem, response, wear, it);
             changes = active_set::update(problem, it, iteration);
-            let stalled = has_stalled((last.0 / tolerance, last.1), residual / it.tolerance);
+            let stalled = has_stalled(last.0 / tolerance, last.1, residual / it.tolerance);
             let unbalanced = BALANCE_TOLERANCE * problem.pair.interface.load;
             let is_balanced = || self.partition.balance(problem, it).abs() <= unbalanced;
             if changes == 0 && (residual <= it.tolerance || stalled) && is_balanced() {
@@ -196,13 +197,14 @@ impl Newton {
             .evaluation
             .evaluate(problem, unknowns, response, wear, it);
         let (system, jacobian) = (&mut self.system, &mut self.jacobian);
+        jacobian.linearise_wear(problem, partition, wear, it, lumped);
         if is_hierarchical {
             let blocks = system.hierarchical(core, unknowns.len() + 1 - core);
             jacobian.assemble_hierarchical(problem, partition, response, wear, it, blocks);
             self.work.response_entries += std::mem::take(&mut jacobian.hierarchical.entries);
         } else {
             let matrix = system.dense(unknowns.len() + 1);
-            jacobian.assemble(problem, partition, response, wear, (it, lumped), matrix);
+            jacobian.assemble(problem, partition, response, wear, it, matrix);
         }
         system.condense(core);
         self.work.factorizations += 1;
@@ -225,6 +227,6 @@ impl Newton {
 
 /// Returns `true` if the iteration has stalled at round-off: no change of status, and a residual, over its tolerance, that was
 /// not halved.
-fn has_stalled((last, changes): (f64, usize), residual: f64) -> bool {
+fn has_stalled(last: f64, changes: usize, residual: f64) -> bool {
     changes == 0 && residual <= STALLED_WITHIN && 2.0 * residual > last
 }

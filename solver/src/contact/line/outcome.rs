@@ -7,7 +7,6 @@ use super::pair::{Displacement, Pair};
 use super::problem::{GAP_TOLERANCE, Iterate};
 use super::state::ContactState;
 use super::status::Status;
-use super::wear_coupling::WearCoupling;
 use super::work::Work;
 use crate::model::Tangential;
 use crate::sides::Sides;
@@ -44,6 +43,23 @@ pub struct Increment<'a> {
     pub work: Work,
 }
 
+/// Solution of an increment over its window.
+#[derive(Clone, Copy)]
+pub(super) struct Solution<'a> {
+    pub(super) geometry: &'a Geometry,
+    pub(super) iterate: &'a Iterate,
+    pub(super) friction: Coefficient<'a>,
+}
+
+/// Wear of an increment.
+#[derive(Clone, Copy)]
+pub(super) struct Recession<'a> {
+    /// Vertical recession at the nodes of each side from the first coupled one on, mm.
+    pub(super) depth: Sides<&'a [f64]>,
+    /// Integral of the wear rate over the contact, mm^2.
+    pub(super) area: Sides<f64>,
+}
+
 impl<'a> Increment<'a> {
     /// No wear, no energy, no residuals.
     pub(super) const NONE: Self = Self {
@@ -76,18 +92,20 @@ impl<'a> Increment<'a> {
         },
     };
 
-    /// Of a solution that is written to `next`; `recession` is a buffer.
+    /// Of a solution that is written to `next`.
     pub(super) fn of(
-        (pair, geometry, it): (&Pair<'_>, &Geometry, &'a Iterate),
-        (wear, recession): (&WearCoupling, &'a mut Sides<Vec<f64>>),
-        (next, friction): (&ContactState, Coefficient<'_>),
-        (to, response): (Displacement<'_>, HeightResponse<'a>),
+        solution: Solution<'a>,
+        worn: Recession<'a>,
+        pair: &Pair<'_>,
+        next: &ContactState,
+        to: Displacement<'_>,
+        response: HeightResponse<'a>,
         work: Work,
     ) -> Self {
-        let coupling = &geometry.coupling;
+        let (it, friction) = (solution.iterate, solution.friction);
+        let coupling = &solution.geometry.coupling;
         let slave = pair.interface.slave;
         let widths = &pair.slave().widths[coupling.first..coupling.end];
-        let worn_area = wear.recession(coupling, pair, &it.path, recession);
         let slipping = widths
             .iter()
             .zip(it.shear.iter().zip(&it.slip))
@@ -131,8 +149,8 @@ impl<'a> Increment<'a> {
                 }
             }),
             path: &it.path,
-            recession: recession.as_slices(),
-            worn_area,
+            recession: worn.depth,
+            worn_area: worn.area,
             energy,
             friction_along,
             vertical_force: vertical,
@@ -160,16 +178,16 @@ impl<'a> Increment<'a> {
 
 /// Writes a solution to `next`.
 pub(super) fn write(
+    solution: Solution<'_>,
     pair: &Pair<'_>,
-    geometry: &Geometry,
-    it: &Iterate,
     last: &ContactState,
-    (setting, friction): (Setting, Coefficient<'_>),
+    setting: Setting,
     next: &mut ContactState,
 ) {
+    let (geometry, it) = (solution.geometry, solution.iterate);
     let coupling = &geometry.coupling;
     let slave = pair.interface.slave;
-    next.reset_open(last, (setting.slider_x, setting.pairing_x));
+    next.reset_open(last, setting.slider_x, setting.pairing_x);
     next.height = it.height;
     next.indentation = it.indentation;
     let span = coupling.first..coupling.end;
@@ -199,5 +217,5 @@ pub(super) fn write(
     next.set_loaded(slave.other(), begin..stop);
     let widths = &pair.slave().widths[coupling.first..coupling.end];
     let forces = it.pressure.iter().zip(widths);
-    next.friction = friction.mean(forces.map(|(p, width)| width * p));
+    next.friction = solution.friction.mean(forces.map(|(p, width)| width * p));
 }

@@ -20,11 +20,7 @@ use std::ops::Range;
 /// Displacement of the slider at which the surfaces are paired, mm, for its imposed displacement, with the mean coefficient of
 /// friction of the contact. Stored forces act on the slider, so that the jump of slider over receptacle is the sum of what they do to
 /// both bodies.
-pub(super) fn position(
-    pair: &Pair<'_>,
-    last: &ContactState,
-    (slider_x, friction): (f64, f64),
-) -> f64 {
+pub(super) fn position(pair: &Pair<'_>, last: &ContactState, slider_x: f64, friction: f64) -> f64 {
     if !pair.interface.sticks {
         return slider_x;
     }

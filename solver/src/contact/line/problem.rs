@@ -68,7 +68,8 @@ impl Problem<'_> {
 pub(super) fn mean_slope(
     last: &ContactState,
     coupling: &Coupling,
-    (widths, slopes): (&[f64], &[f64]),
+    widths: &[f64],
+    slopes: &[f64],
 ) -> f64 {
     let (mut load, mut moment) = (0.0, 0.0);
     let pressures = &last.pressure[coupling.first..coupling.end];

@@ -22,7 +22,8 @@ const UNWORN: f64 = 1e6;
 /// master wears faster than its surface.
 pub(super) fn share_by_resistance(
     coupling: &mut Coupling,
-    (pair, surfaces): (&Pair<'_>, &Surfaces<'_>),
+    pair: &Pair<'_>,
+    surfaces: &Surfaces<'_>,
     indentation: f64,
 ) {
     let master = pair.interface.slave.other();

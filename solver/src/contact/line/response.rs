@@ -85,7 +85,7 @@ impl Response {
         let n = self.nodes;
         let deformation = &mut self.deformation;
         let nodes = coupling.first..coupling.end;
-        deformation.under_force(problem.zones, coupling, (node, force), nodes);
+        deformation.under_force(problem.zones, coupling, node, force, nodes);
         let displacements = deformation.averaged(coupling);
         if !self.tangential {
             let rows = self.columns[begin..begin + n].iter_mut();

@@ -57,12 +57,8 @@ impl ContactState {
         }
     }
 
-    /// Resets to an open contact with the slider at a position.
-    pub(in crate::contact) fn reset_open(
-        &mut self,
-        last: &Self,
-        (slider_x, pairing_x): (f64, f64),
-    ) {
+    /// Resets to an open contact with the slider at a displacement, paired at another one.
+    pub(in crate::contact) fn reset_open(&mut self, last: &Self, slider_x: f64, pairing_x: f64) {
         self.slider_x = slider_x;
         self.pairing_x = pairing_x;
         self.height = last.height;

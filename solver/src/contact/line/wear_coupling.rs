@@ -54,10 +54,11 @@ impl WearCoupling {
         &mut self,
         coupling: &Coupling,
         pair: &Pair<'_>,
-        (wear, depth): (Sides<Option<SurfaceWear>>, Sides<&[f64]>),
+        wear: &Sides<Option<SurfaceWear>>,
+        depth: Sides<&[f64]>,
         cycles: f64,
     ) {
-        self.wear = wear;
+        self.wear = *wear;
         self.cycles = cycles;
         self.transfer.reset(coupling.len(), 0);
         let (slave, master) = (pair.interface.slave, pair.interface.slave.other());
@@ -175,9 +176,9 @@ impl WearCoupling {
             }
         }
         if self.has_power() {
-            let worn = (self.wear, &self.depth);
+            let (wear, depth) = (&self.wear, &self.depth);
             self.by_power
-                .linearise((coupling, pair), worn, self.cycles, states);
+                .linearise(coupling, pair, wear, depth, self.cycles, states);
         }
         self.combine(
             coupling,
@@ -279,7 +280,7 @@ impl WearCoupling {
                     nodes.map(|(worn, width)| width * worn).sum()
                 }
                 Some(SurfaceWear::Law(_)) => {
-                    self.recession_by_law((coupling, pair), side, path, recession)
+                    self.recession_by_law(coupling, pair, side, path, recession)
                 }
                 Some(SurfaceWear::ByDose(curve)) => {
                     let widths = if side == pair.interface.slave {
@@ -302,7 +303,8 @@ impl WearCoupling {
     /// Recession of a side that wears by one law; returns its worn area.
     fn recession_by_law(
         &self,
-        (coupling, pair): (&Coupling, &Pair<'_>),
+        coupling: &Coupling,
+        pair: &Pair<'_>,
         side: Side,
         path: &[f64],
         recession: &mut Vec<f64>,

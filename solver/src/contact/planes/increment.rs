@@ -2,9 +2,7 @@
 
 use super::super::line::active_window::{candidates, undeformed_gaps, widened};
 use super::super::line::mortar;
-use super::super::line::{
-    ContactError, ContactState, GAP_TOLERANCE, Pair, Status, Surfaces, WarmStart,
-};
+use super::super::line::{ContactError, ContactState, GAP_TOLERANCE, Pair, Status, Surfaces};
 use super::bodies::{Extruded, Slide};
 use super::iterate::Iterate;
 use super::newton::{Convergence, Newton};
@@ -61,8 +59,7 @@ pub struct ExtrudedSolver {
 }
 
 impl ExtrudedSolver {
-    /// Solves the increment to a displacement from starts for each plane, or from the last contacts moved with the slider; writes the new
-    /// contacts to `next` and what they wear to `worn`.
+    /// Solves the increment to a displacement; writes the new contacts to `next` and the wear of the planes to `worn`.
     ///
     /// # Errors
     /// [`ContactError`]; `next` and `worn` are then undefined.
@@ -70,20 +67,18 @@ impl ExtrudedSolver {
         &mut self,
         bodies: &Extruded<'_>,
         surfaces: &[Surfaces<'_>],
-        (last, starts): (&[ContactState], Option<&[WarmStart<'_>]>),
-        to: Slide,
-        (next, worn): (&mut [ContactState], &mut [PlaneWear]),
+        last: &[ContactState],
+        to: Slide<'_>,
+        next: &mut [ContactState],
+        worn: &mut [PlaneWear],
     ) -> Result<Solved, ContactError> {
-        let pair = &Pair {
-            operators: &bodies.operators.sections,
-            interface: bodies.interface,
-        };
+        let pair = &bodies.pair();
         self.newton.iterations = 0;
         let covered = mortar::covered(pair, to.slider_x);
         if covered.0 == covered.1 {
             // A stop holds the height of a slider that its stroke has taken off the receptacle.
             for ((next, last), worn) in next.iter_mut().zip(last).zip(worn) {
-                next.reset_open(last, (to.slider_x, to.slider_x));
+                next.reset_open(last, to.slider_x, to.slider_x);
                 *worn = PlaneWear::default();
             }
             return Ok(Solved::default());
@@ -96,16 +91,16 @@ impl ExtrudedSolver {
         let mut earlier: Option<(usize, usize)> = None;
         for _ in 0..MOST_EXTENSIONS {
             self.problem
-                .assemble((bodies, pair), surfaces, last, to, (window, &mut self.wear));
+                .assemble(bodies, surfaces, last, to, window, &mut self.wear);
             match earlier {
                 Some(earlier) => self.extend(earlier, window, surfaces.len()),
-                None => self.predict(pair, last, starts, to),
+                None => self.predict(pair, last, to),
             }
-            self.solve((bodies, pair), last, to)?;
+            self.solve(bodies, to)?;
             let it = &self.iterate;
             let needed = self.candidates(it.indentation, it.height, covered);
             if needed.0 >= window.0 && needed.1 <= window.1 {
-                self.write(pair, last, to, (next, worn));
+                self.write(pair, last, to, next, worn);
                 let it = &self.iterate;
                 return Ok(Solved {
                     iterations: self.newton.iterations,
@@ -141,7 +136,7 @@ impl ExtrudedSolver {
         &self,
         pair: &Pair<'_>,
         last: &[ContactState],
-        to: Slide,
+        to: Slide<'_>,
         covered: (usize, usize),
     ) -> (usize, usize) {
         let x = &pair.slave().x;
@@ -175,22 +170,16 @@ impl ExtrudedSolver {
     }
 
     /// Writes the predictor of the iteration.
-    fn predict(
-        &mut self,
-        pair: &Pair<'_>,
-        last: &[ContactState],
-        starts: Option<&[WarmStart<'_>]>,
-        to: Slide,
-    ) {
+    fn predict(&mut self, pair: &Pair<'_>, last: &[ContactState], to: Slide<'_>) {
         let (first, n) = (self.problem.coupling.first, self.problem.nodes());
         let it = &mut self.iterate;
         it.reset(self.problem.len(), last[0].height);
         for (plane, contact) in last.iter().enumerate() {
             let range = plane * n..(plane + 1) * n;
-            let own = (&mut it.is_closed[range.clone()], &mut it.pressure[range]);
-            match starts.map(|starts| starts[plane]) {
-                Some(start) => start_from(own, first, start),
-                None => moved((pair, contact), own, first, to),
+            let (closed, pressure) = (&mut it.is_closed[range.clone()], &mut it.pressure[range]);
+            match to.starts.map(|starts| starts[plane]) {
+                Some(start) => start_from(closed, pressure, first, start),
+                None => moved(pair, contact, to.slider_x, closed, pressure, first),
             }
         }
         if it.is_closed.iter().all(|closed| !closed) {
@@ -213,12 +202,7 @@ impl ExtrudedSolver {
         }
     }
 
-    fn solve(
-        &mut self,
-        (bodies, pair): (&Extruded<'_>, &Pair<'_>),
-        last: &[ContactState],
-        to: Slide,
-    ) -> Result<(), ContactError> {
+    fn solve(&mut self, bodies: &Extruded<'_>, to: Slide<'_>) -> Result<(), ContactError> {
         let (interface, coupling) = (&bodies.interface, &self.problem.coupling);
         let zone = |side: Side, (first, end): (usize, usize)| {
             let zone = bodies.operators.zone(side, &(first..end));
@@ -238,12 +222,11 @@ impl ExtrudedSolver {
         };
         self.problem.sag(zones, interface.slave);
         self.response.reset(self.problem.len());
-        let is_first_load = last[0].reference_height.is_none();
         let wall = self.problem.mean_slope_ahead(&self.iterate.pressure) * interface.friction;
         let (problem, it) = (&self.problem, &mut self.iterate);
         let (newton, response) = (&mut self.newton, &mut self.response);
-        let wear = (&mut self.wear, pair);
-        match newton.solve(problem, (zones, response), wear, it, is_first_load) {
+        let (wear, pair) = (&mut self.wear, &bodies.pair());
+        match newton.solve(problem, zones, response, wear, pair, it) {
             Convergence::Converged => Ok(()),
             _ if wall > 1.0 => Err(ContactError::Jammed {
                 slider_x_mm: to.slider_x,
@@ -269,8 +252,9 @@ impl ExtrudedSolver {
         &mut self,
         pair: &Pair<'_>,
         last: &[ContactState],
-        to: Slide,
-        (next, worn): (&mut [ContactState], &mut [PlaneWear]),
+        to: Slide<'_>,
+        next: &mut [ContactState],
+        worn: &mut [PlaneWear],
     ) {
         let (problem, it) = (&self.problem, &self.iterate);
         let (coupling, n) = (&problem.coupling, problem.nodes());
@@ -280,7 +264,7 @@ impl ExtrudedSolver {
         let widths = &pair.slave().widths[coupling.first..coupling.end];
         let planes = next.iter_mut().zip(last).zip(worn).enumerate();
         for (k, ((next, last), worn)) in planes {
-            next.reset_open(last, (to.slider_x, to.slider_x));
+            next.reset_open(last, to.slider_x, to.slider_x);
             next.height = it.height;
             next.indentation = it.indentation;
             next.friction = pair.interface.friction;
@@ -293,7 +277,7 @@ impl ExtrudedSolver {
             for (shear, p) in next.shear[coupling.first..].iter_mut().zip(pressure) {
                 *shear = friction * p;
             }
-            problem.write_forces(k, pressure, (slave, next));
+            problem.write_forces(k, pressure, slave, next);
             self.path.clear();
             self.path.extend_from_slice(&it.path[own.clone()]);
             worn.first = Sides::from_fn(|side| {

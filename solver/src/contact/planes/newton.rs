@@ -58,18 +58,24 @@ impl Newton {
     pub(super) fn solve(
         &mut self,
         problem: &Problem,
-        (zones, response): (Zones<'_>, &mut Response),
-        (wear, pair): (&mut PlanesWear, &Pair<'_>),
+        zones: Zones<'_>,
+        response: &mut Response,
+        wear: &mut PlanesWear,
+        pair: &Pair<'_>,
         it: &mut Iterate,
-        is_first_load: bool,
     ) -> Convergence {
-        let most = MOST_ITERATIONS + if is_first_load { it.is_closed.len() } else { 0 };
+        let single_changes = if problem.first_load {
+            it.is_closed.len()
+        } else {
+            0
+        };
+        let most = MOST_ITERATIONS + single_changes;
         let (mut residual, mut changes, mut renew) = (f64::INFINITY, usize::MAX, true);
         for iteration in 0..most {
             self.iterations += 1;
             let renewed = renew || !self.partition.admits(&it.is_closed);
             if renewed {
-                residual = self.linearise(problem, (zones, response), (wear, pair), it);
+                residual = self.linearise(problem, zones, response, wear, pair, it);
             }
             let last = (residual, changes);
             let changed = renewed || changes > 0;
@@ -78,7 +84,7 @@ impl Newton {
                     active: self.partition.nodes.len(),
                 };
             }
-            residual = self.evaluate(problem, response, (wear, pair), it);
+            residual = self.evaluate(problem, response, wear, pair, it);
             changes = update_statuses(it, iteration >= SINGLE_CHANGE_FROM);
             let is_even = changes == 0 && last.1 == 0;
             let stalled = residual <= STALLED_WITHIN * it.tolerance && 2.0 * residual > last.0;
@@ -103,8 +109,10 @@ impl Newton {
     fn linearise(
         &mut self,
         problem: &Problem,
-        (zones, response): (Zones<'_>, &mut Response),
-        (wear, pair): (&mut PlanesWear, &Pair<'_>),
+        zones: Zones<'_>,
+        response: &mut Response,
+        wear: &mut PlanesWear,
+        pair: &Pair<'_>,
         it: &mut Iterate,
     ) -> f64 {
         self.partition.choose(&it.is_closed, problem.nodes());
@@ -116,9 +124,9 @@ impl Newton {
                 *pressure = 0.0;
             }
         }
-        let residual = self.evaluate(problem, response, (wear, pair), it);
+        let residual = self.evaluate(problem, response, wear, pair, it);
         self.correction
-            .assemble(problem, (&self.partition, wear), response, it);
+            .assemble(problem, &self.partition, wear, response, it);
         residual
     }
 
@@ -127,7 +135,8 @@ impl Newton {
         &mut self,
         problem: &Problem,
         response: &Response,
-        (wear, pair): (&mut PlanesWear, &Pair<'_>),
+        wear: &mut PlanesWear,
+        pair: &Pair<'_>,
         it: &mut Iterate,
     ) -> f64 {
         slide(problem, it);
@@ -148,8 +157,7 @@ impl Newton {
         it.gap.resize(problem.len(), 0.0);
         let n = problem.nodes();
         if problem.wears {
-            let tractions = (&it.pressure[..], &it.slip[..]);
-            wear.linearise((&problem.coupling, pair), n, tractions);
+            wear.linearise(&problem.coupling, pair, n, &it.pressure, &it.slip);
             let planes = it.gap.chunks_exact_mut(n).zip(it.path.chunks_exact(n));
             for (plane, (opened, path)) in planes.enumerate() {
                 let own = wear.of(plane);

@@ -1,11 +1,11 @@
 //! Predictors of the contact of a plane: that of an increment like it, or the last one, moved with the slider.
 
 use super::super::line::{ContactState, Pair, Status, WarmStart};
-use super::bodies::Slide;
 
 /// Writes statuses and pressures of a start to the nodes of a plane from `first` on.
 pub(super) fn start_from(
-    (closed, pressure): (&mut [bool], &mut [f64]),
+    closed: &mut [bool],
+    pressure: &mut [f64],
     first: usize,
     start: WarmStart<'_>,
 ) {
@@ -21,16 +21,18 @@ pub(super) fn start_from(
 
 /// Writes the last contact, moved with the slider, to the nodes of a plane from `first` on.
 pub(super) fn moved(
-    (pair, last): (&Pair<'_>, &ContactState),
-    (closed, pressure): (&mut [bool], &mut [f64]),
+    pair: &Pair<'_>,
+    last: &ContactState,
+    slider_x: f64,
+    closed: &mut [bool],
+    pressure: &mut [f64],
     first: usize,
-    to: Slide,
 ) {
     let Some((begin, end)) = last.active_range() else {
         return;
     };
     let x = &pair.slave().x;
-    let travel = pair.travel(last, to.slider_x);
+    let travel = pair.travel(last, slider_x);
     for (i, (closed, pressure)) in (first..).zip(closed.iter_mut().zip(pressure)) {
         let from = x[i] - travel;
         if from < x[begin] || from > x[end - 1] {

@@ -24,6 +24,8 @@ pub(super) struct Problem {
     /// The pairing, which all planes have.
     pub(super) coupling: Coupling,
     pub(super) wears: bool,
+    /// True if nothing was loaded before.
+    pub(super) first_load: bool,
     /// Gap of the worn bodies at height 0 under the far-face load, mm.
     pub(super) gap: Vec<f64>,
     /// Slopes of the interface and of the master's surface.
@@ -52,20 +54,23 @@ impl Problem {
     /// Assembles the increment over the nodes `first..end` of the slave, with its wear.
     pub(super) fn assemble(
         &mut self,
-        (bodies, pair): (&Extruded<'_>, &Pair<'_>),
+        bodies: &Extruded<'_>,
         surfaces: &[Surfaces<'_>],
         last: &[ContactState],
-        to: Slide,
-        ((first, end), worn): ((usize, usize), &mut PlanesWear),
+        to: Slide<'_>,
+        (first, end): (usize, usize),
+        worn: &mut PlanesWear,
     ) {
+        let pair = &bodies.pair();
         let interface = &bodies.interface;
         self.coupling.integrate(pair, to.slider_x, first, end);
         let wear = interface.wear.map(|wear| wear.filter(|_| to.cycles > 0.0));
         self.wears = wear.slider.is_some() || wear.receptacle.is_some();
-        worn.assemble((&self.coupling, pair), &wear, surfaces, to.cycles);
+        worn.assemble(&self.coupling, pair, &wear, surfaces, to.cycles);
         let step = to.slider_x - last[0].slider_x;
         self.direction = if step == 0.0 { 0.0 } else { step.signum() };
         self.full_load = interface.load;
+        self.first_load = last[0].reference_height.is_none();
         // Before the first load the spring has no reference height.
         let (spring, reference) = last[0]
             .reference_height
@@ -153,7 +158,8 @@ impl Problem {
         &self,
         plane: usize,
         pressure: &[f64],
-        (slave, next): (Side, &mut ContactState),
+        slave: Side,
+        next: &mut ContactState,
     ) {
         let (coupling, n) = (&self.coupling, self.nodes());
         let per_pressure = self.force[plane * n..(plane + 1) * n].iter();

@@ -17,7 +17,8 @@ impl PlanesWear {
     /// Assembles the opening for the wear of both surfaces, worn to the depths of each plane, and a number of cycles.
     pub(super) fn assemble(
         &mut self,
-        (coupling, pair): (&Coupling, &Pair<'_>),
+        coupling: &Coupling,
+        pair: &Pair<'_>,
         wear: &Sides<Option<SurfaceWear>>,
         surfaces: &[Surfaces<'_>],
         cycles: f64,
@@ -30,7 +31,7 @@ impl PlanesWear {
         };
         self.planes.resize_with(count, WearCoupling::default);
         for (own, surfaces) in self.planes.iter_mut().zip(surfaces) {
-            own.assemble(coupling, pair, (*wear, surfaces.depth), cycles);
+            own.assemble(coupling, pair, wear, surfaces.depth, cycles);
         }
     }
 
@@ -42,9 +43,11 @@ impl PlanesWear {
     /// Linearises rates that depend on the depth about the pressures and slips of all planes, which have `nodes` coupled ones each.
     pub(super) fn linearise(
         &mut self,
-        (coupling, pair): (&Coupling, &Pair<'_>),
+        coupling: &Coupling,
+        pair: &Pair<'_>,
         nodes: usize,
-        (pressure, slip): (&[f64], &[f64]),
+        pressure: &[f64],
+        slip: &[f64],
     ) {
         for (plane, own) in self.planes.iter_mut().enumerate() {
             let states = (plane * nodes..(plane + 1) * nodes).map(|node| LocalState {

@@ -42,7 +42,8 @@ impl Correction {
         &mut self,
         problem: &Problem<'_>,
         partition: &Partition,
-        (system, renewed): (&mut System, bool),
+        system: &mut System,
+        renewed: bool,
         it: &mut Iterate,
     ) -> bool {
         self.write_residuals(problem, partition, it);

@@ -111,7 +111,8 @@ impl Hierarchical {
         &mut self,
         problem: &Problem<'_>,
         partition: &Partition,
-        (matrix, below): (&mut Hodlr, &mut [f64]),
+        matrix: &mut Hodlr,
+        below: &mut [f64],
     ) {
         let core = partition.core;
         let mut influence = Influence {
@@ -138,8 +139,10 @@ impl Influence<'_> {
     /// Writes the products of vectors with the displacements at the nodes of a range of the core by a force at a node.
     fn write(
         &mut self,
-        (node, force): (usize, [f64; 2]),
-        (range, vectors): (Range<usize>, &[[f64; 2]]),
+        node: usize,
+        force: [f64; 2],
+        range: Range<usize>,
+        vectors: &[[f64; 2]],
         entries: &mut [f64],
     ) {
         *self.entries += count(range.len());
@@ -151,7 +154,7 @@ impl Influence<'_> {
         );
         let nodes = first + begin..first + end + 1;
         let deformation = &mut *self.deformation;
-        deformation.under_force(self.problem.zones, coupling, (first + node, force), nodes);
+        deformation.under_force(self.problem.zones, coupling, first + node, force, nodes);
         let unknowns = &self.unknowns[range.clone()];
         let mut rows = unknowns.iter().zip(&vectors[range]).zip(entries).peekable();
         for (at, [x, y]) in (begin..).zip(deformation.averaged(coupling)) {
@@ -166,20 +169,12 @@ impl Influence<'_> {
 
 impl Entries for Influence<'_> {
     fn row(&mut self, row: usize, columns: Range<usize>, entries: &mut [f64]) {
-        let force = self.force;
-        self.write(
-            (self.unknowns[row].node(), self.equation[row]),
-            (columns, force),
-            entries,
-        );
+        let (node, equation) = (self.unknowns[row].node(), self.equation[row]);
+        self.write(node, equation, columns, self.force, entries);
     }
 
     fn column(&mut self, column: usize, rows: Range<usize>, entries: &mut [f64]) {
-        let equation = self.equation;
-        self.write(
-            (self.unknowns[column].node(), self.force[column]),
-            (rows, equation),
-            entries,
-        );
+        let (node, force) = (self.unknowns[column].node(), self.force[column]);
+        self.write(node, force, rows, self.equation, entries);
     }
 }

@@ -26,23 +26,23 @@ pub(super) struct Jacobian {
 }
 
 impl Jacobian {
-    /// Writes the derivatives of the gaps of closed nodes, of the slips of sticking ones and of the vertical balance.
+    /// Writes the derivatives of the gaps of closed nodes, of the slips of sticking ones and of the vertical balance, from wear that
+    /// [`Self::linearise_wear`] has linearised.
     pub(super) fn assemble(
         &mut self,
         problem: &Problem<'_>,
         partition: &Partition,
         response: &Response,
-        wear: &mut WearCoupling,
-        (it, lumped): (&Iterate, bool),
+        wear: &WearCoupling,
+        it: &Iterate,
         matrix: &mut SquareMatrix,
     ) {
-        self.linearise_wear(problem, partition, wear, (it, lumped));
         let unknowns = &partition.unknowns;
         let span = span(unknowns);
         for (u, unknown) in unknowns.iter().enumerate() {
             let slip_at = |node| it.local_state(node, partition.status(it, node)).slip;
             let responses = response.column(*unknown);
-            let slip = self.respond(problem, (responses, wear), &span, (*unknown, slip_at));
+            let slip = self.respond(problem, responses, wear, &span, *unknown, slip_at);
             let balance = balance(problem, *unknown);
             write_column(unknowns, &self.gap, slip, balance, matrix.column_mut(u));
         }
@@ -64,7 +64,7 @@ impl Jacobian {
         problem: &Problem<'_>,
         partition: &Partition,
         response: &Response,
-        wear: &mut WearCoupling,
+        wear: &WearCoupling,
         it: &Iterate,
         blocks: Blocks<'_>,
     ) {
@@ -74,7 +74,6 @@ impl Jacobian {
             below,
             corner,
         } = blocks;
-        self.linearise_wear(problem, partition, wear, (it, true));
         let unknowns = &partition.unknowns;
         let span = span(unknowns);
         let slip_at = |node| it.local_state(node, partition.status(it, node)).slip;
@@ -100,7 +99,7 @@ impl Jacobian {
         let mut column = || columns.next().unwrap_or_default();
         for (b, unknown) in border.iter().enumerate() {
             let responses = response.column(*unknown);
-            let slip = self.respond(problem, (responses, wear), &span, (*unknown, slip_at));
+            let slip = self.respond(problem, responses, wear, &span, *unknown, slip_at);
             write_entries(inner, &self.gap, slip, column());
             let balance = balance(problem, *unknown);
             write_column(border, &self.gap, slip, balance, corner.column_mut(b));
@@ -111,20 +110,21 @@ impl Jacobian {
         let beside = corner.column_mut(border.len());
         write_column(border, &self.gap, &self.slip, spring, beside);
         self.hierarchical
-            .write_core(problem, partition, (matrix, &mut *below));
+            .write_core(problem, partition, matrix, below);
         let balances = below[border.len() * core..].iter_mut().zip(inner);
         for (entry, unknown) in balances {
             *entry = balance(problem, *unknown);
         }
     }
 
-    /// Linearises the wear about an iterate.
-    fn linearise_wear(
+    /// Linearises the wear about an iterate, with lumped openings if asked.
+    pub(super) fn linearise_wear(
         &mut self,
         problem: &Problem<'_>,
         partition: &Partition,
         wear: &mut WearCoupling,
-        (it, lumped): (&Iterate, bool),
+        it: &Iterate,
+        lumped: bool,
     ) {
         if !problem.wears {
             return;
@@ -152,9 +152,11 @@ impl Jacobian {
     fn respond<'a>(
         &mut self,
         problem: &Problem<'_>,
-        ((gap, slip), wear): (Column<'a>, &WearCoupling),
+        (gap, slip): Column<'a>,
+        wear: &WearCoupling,
         span: &Range<usize>,
-        (unknown, slip_at): (Unknown, impl Fn(usize) -> f64),
+        unknown: Unknown,
+        slip_at: impl Fn(usize) -> f64,
     ) -> &'a [f64] {
         self.gap.resize(problem.coupling.len(), 0.0);
         self.gap[span.clone()].copy_from_slice(&gap[span.clone()]);

@@ -31,12 +31,23 @@ pub(in super::super) struct PowerOpening {
     transfer: Band,
 }
 
+/// Surface of one side before the increment.
+#[derive(Clone, Copy)]
+struct Surface<'a> {
+    side: Side,
+    wear: Option<SurfaceWear>,
+    /// Depth of the nodes in the coupled range, mm.
+    depth: &'a [f64],
+}
+
 impl PowerOpening {
     /// Linearises the opening about the pressures and slips of the coupled nodes; `depth` before the increment of both sides.
     pub(super) fn linearise(
         &mut self,
-        (coupling, pair): (&Coupling, &Pair<'_>),
-        (wear, depth): (Sides<Option<SurfaceWear>>, &Sides<Vec<f64>>),
+        coupling: &Coupling,
+        pair: &Pair<'_>,
+        wear: &Sides<Option<SurfaceWear>>,
+        depth: &Sides<Vec<f64>>,
         cycles: f64,
         states: &(impl Iterator<Item = LocalState> + Clone),
     ) {
@@ -44,13 +55,12 @@ impl PowerOpening {
         self.opened.resize(coupling.len(), 0.0);
         self.transfer.reset(coupling.len(), 0);
         for side in Side::BOTH {
-            self.recede(
-                (coupling, pair),
-                (side, *wear.of(side)),
-                depth.of(side),
-                cycles,
-                states,
-            );
+            let surface = Surface {
+                side,
+                wear: *wear.of(side),
+                depth: depth.of(side),
+            };
+            self.recede(coupling, pair, surface, cycles, states);
         }
         let slave = pair.interface.slave;
         let (own, far) = (self.increase.of(slave), self.increase.of(slave.other()));
@@ -64,12 +74,13 @@ impl PowerOpening {
     /// Recedes one side, and adds the gap that this opens.
     fn recede(
         &mut self,
-        (coupling, pair): (&Coupling, &Pair<'_>),
-        (side, wear): (Side, Option<SurfaceWear>),
-        depth: &[f64],
+        coupling: &Coupling,
+        pair: &Pair<'_>,
+        surface: Surface<'_>,
         cycles: f64,
         states: &(impl Iterator<Item = LocalState> + Clone),
     ) {
+        let Surface { side, wear, depth } = surface;
         let (recession, ends) = (self.recession.of_mut(side), self.ends.of_mut(side));
         let increase = self.increase.of_mut(side);
         recession.clear();

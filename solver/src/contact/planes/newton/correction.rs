@@ -29,7 +29,8 @@ impl Correction {
     pub(super) fn assemble(
         &mut self,
         problem: &Problem,
-        (partition, wear): (&Partition, &PlanesWear),
+        partition: &Partition,
+        wear: &PlanesWear,
         response: &Response,
         it: &Iterate,
     ) {
