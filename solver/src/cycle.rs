@@ -78,7 +78,7 @@ pub struct Integrator<'a> {
     friction: ContactFriction,
     /// Coefficients of friction at the nodes of the surfaces that it differs on, from there on too, -.
     nodal_friction: Sides<Option<Vec<f64>>>,
-    spines: Spines,
+    pub(crate) spines: Spines,
     /// Cycles until the end of the run, estimated where it stops at a depth.
     expected_cycles: u64,
     /// The motion in time, and the present stroke of its cycle.

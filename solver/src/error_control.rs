@@ -129,8 +129,7 @@ impl<'scope, 'env> Runs<'scope, 'env> {
         }
         // The checkpoint is that of the run until this one has ended, then of a companion.
         let of_companion = self.from.take_if(|_| !self.earlier.runs.is_empty());
-        let case = (self.scene, self.plan);
-        let threads = CompanionThreads::new(scope, case, (next, of_companion));
+        let threads = CompanionThreads::new(scope, self.scene, self.plan, next, of_companion);
         threads.begin(self.scene.threads - 1);
         self.threads = Some(threads);
     }
@@ -197,7 +196,7 @@ impl<'scope, 'env> Runs<'scope, 'env> {
         let observer = &mut companions::Quiet {
             observer: self.observer,
         };
-        run::by_plan((companion, self.plan), from, &self.earlier, observer)
+        run::by_plan(companion, self.plan, from, &self.earlier, observer)
     }
 
     /// Ends with the first run, unless a finer one is worth it.
@@ -236,7 +235,7 @@ impl<'scope, 'env> Runs<'scope, 'env> {
             Ok(mut done) => {
                 if done.outcome != Outcome::Stopped {
                     let compared = std::mem::take(&mut done.compared);
-                    self.state_errors(&mut done, (&compared, refinement));
+                    self.state_errors(&mut done, &compared, refinement);
                 }
                 return Ok(ControlFlow::Break(done));
             }
@@ -264,7 +263,7 @@ impl<'scope, 'env> Runs<'scope, 'env> {
 
     fn solve(&mut self, scene: &Scene) -> Result<Summary, SolveError> {
         let from = self.from.take();
-        run::by_plan((scene, self.plan), from, &self.earlier, self.observer)
+        run::by_plan(scene, self.plan, from, &self.earlier, self.observer)
     }
 
     fn first_errors(&self) -> Option<Errors> {
@@ -275,11 +274,11 @@ impl<'scope, 'env> Runs<'scope, 'env> {
     /// States the errors of the run with the settings of the tolerance.
     fn state_first_errors(&self, done: &mut Summary) {
         if let Some(Some(first)) = self.earlier.runs.first() {
-            self.state_errors(done, (first, Refinement::NONE));
+            self.state_errors(done, first, Refinement::NONE);
         }
     }
 
-    fn state_errors(&self, done: &mut Summary, (run, refinement): (&Compared, Refinement)) {
+    fn state_errors(&self, done: &mut Summary, run: &Compared, refinement: Refinement) {
         let estimate = self.estimate(run, refinement);
         done.life.state_errors(estimate.errors_of_lives());
         done.life.scattered = estimate.scattered_lives();

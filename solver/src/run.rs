@@ -45,7 +45,8 @@ pub fn solve(scene: &Scene, observer: &mut dyn Observer) -> Result<Summary, Solv
 
 /// Solves a scene by a plan: from a checkpoint if there is one, else after earlier runs of it.
 pub(crate) fn by_plan(
-    (scene, plan): (&Scene, &EffectsPlan),
+    scene: &Scene,
+    plan: &EffectsPlan,
     from: Option<Checkpoint>,
     earlier: &EarlierRuns,
     observer: &mut dyn Observer,
@@ -76,8 +77,8 @@ fn begin(
     } = loaded;
     run.earlier = earlier;
     match flow {
-        ControlFlow::Continue(()) => advance(scene, (plan, model), condensed, run, observer),
-        ControlFlow::Break(()) => Ok(summary(scene, (&plan, &model), &run, Outcome::Stopped)),
+        ControlFlow::Continue(()) => advance(scene, plan, model, condensed, run, observer),
+        ControlFlow::Break(()) => Ok(summary(scene, &plan, &model, &run, Outcome::Stopped)),
     }
 }
 
@@ -121,23 +122,24 @@ fn proceed(
     let model = run.model(&unworn)?;
     observer.on_phase(Phase::Condense);
     let condensed = condensation::condense(&model, scene.threads)?;
-    advance(scene, (plan, model), condensed, run, observer)
+    advance(scene, plan, model, condensed, run, observer)
 }
 
 /// Integrates, relocates and condenses until the run ends.
 fn advance(
     scene: &Scene,
-    (mut plan, mut model): (EffectsPlan, Model),
+    mut plan: EffectsPlan,
+    mut model: Model,
     mut condensed: Condensed,
     mut run: SectionRun,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     loop {
         observer.on_phase(Phase::Cycles);
-        let flow = integrate(scene, (&plan, &model), &condensed, &mut run, observer)?;
+        let flow = integrate(scene, &plan, &model, &condensed, &mut run, observer)?;
         match flow {
             ControlFlow::Break(outcome) => {
-                return Ok(summary(scene, (&plan, &model), &run, outcome));
+                return Ok(summary(scene, &plan, &model, &run, outcome));
             }
             ControlFlow::Continue(Renewal::Effects) => {
                 plan = plan.after(&run.crossings);
@@ -162,7 +164,8 @@ fn advance(
 /// Computes cycles until the run ends (`Break`), or needs something else before its next cycle (`Continue`).
 fn integrate(
     scene: &Scene,
-    (plan, model): (&EffectsPlan, &Model),
+    plan: &EffectsPlan,
+    model: &Model,
     condensed: &Condensed,
     run: &mut SectionRun,
     observer: &mut dyn Observer,
@@ -170,7 +173,6 @@ fn integrate(
     let blocks = scene.blocks();
     let block = &blocks[run.block()];
     let mut integrator = Integrator::new(block, model, &condensed.operators);
-    let spines = Spines::of(model);
     let evaluation = resistance::evaluation(scene, plan);
     // Where a limit of the resistance was passed by too much.
     let mut until_limit = u64::MAX;
@@ -182,17 +184,15 @@ fn integrate(
             return Ok(ControlFlow::Continue(Renewal::Stiffness));
         }
         let left = run.block_left().map(|left| blocks[left].motion);
-        let tools = (&mut integrator, &spines);
-        let next = (left, until_limit);
-        let (before, record) = match step(scene, (plan, model), tools, (run, next))? {
+        let step = step(scene, plan, model, &mut integrator, run, left, until_limit)?;
+        let (before, record) = match step {
             Step::Cycle(before, record) => (*before, *record),
             Step::MotionChanged => continue,
             Step::Renew(renewal) => return Ok(ControlFlow::Continue(renewal)),
         };
         let electrical = run.electrical.clone();
         if let Some(evaluation) = &evaluation {
-            let bodies = (model, condensed);
-            match resistance::update(evaluation, (scene, plan), bodies, (run, &before)) {
+            match resistance::update(evaluation, scene, plan, model, condensed, run, &before) {
                 None => {}
                 Some(Consequence::GoTo(sooner)) => {
                     until_limit = sooner;
@@ -222,8 +222,8 @@ fn integrate(
             };
             resistance::push_life_of_section(computed, change, &mut run.life);
         }
-        let end = end(scene, (model, &spines), run);
-        let delivered = deliver(scene, (model, condensed), run, (record, end), observer)?;
+        let end = end(scene, model, &integrator.spines, run);
+        let delivered = deliver(scene, model, condensed, run, record, end, observer)?;
         if let ControlFlow::Break(outcome) = delivered {
             return Ok(ControlFlow::Break(outcome));
         }
@@ -234,9 +234,11 @@ fn integrate(
 /// Delivers what a computed cycle led to; `Break` where the run ends with it or is stopped.
 fn deliver(
     scene: &Scene,
-    (model, condensed): (&Model, &Condensed),
+    model: &Model,
+    condensed: &Condensed,
     run: &mut SectionRun,
-    (record, end): (CycleRecord, Option<Outcome>),
+    record: CycleRecord,
+    end: Option<Outcome>,
     observer: &mut dyn Observer,
 ) -> Result<ControlFlow<Outcome>, SolveError> {
     const STOPPED: ControlFlow<Outcome> = ControlFlow::Break(Outcome::Stopped);
@@ -278,7 +280,7 @@ fn next_block(scene: &Scene, model: &Model, run: &mut SectionRun) {
         scene,
         &mut run.state,
         &model.interface.wear,
-        |state, rates| progress((model, &spines), state, rates),
+        |state, rates| progress(model, &spines, state, rates),
         |state, side, part| record::worn_surface(model, state, side).depth_of_part(part),
     );
 }

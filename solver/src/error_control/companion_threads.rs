@@ -56,18 +56,20 @@ impl<'scope, 'env> CompanionThreads<'scope, 'env> {
     /// The companions from one on, of which the first is resumed from a checkpoint if there is one.
     pub(super) fn new(
         scope: &'scope Scope<'scope, 'env>,
-        (scene, plan): (&'env Scene, &'env EffectsPlan),
-        first: (usize, Option<Checkpoint>),
+        scene: &'env Scene,
+        plan: &'env EffectsPlan,
+        first: usize,
+        from: Option<Checkpoint>,
     ) -> Self {
         let (sender, received) = channel();
         // One with a checkpoint was waited for when the run was stopped, and is waited for next.
-        let awaited = first.1.as_ref().map_or(usize::MAX, |_| first.0);
+        let awaited = from.as_ref().map_or(usize::MAX, |_| first);
         Self {
             scope,
             scene,
             plan,
             common: Arc::new(Common {
-                next: Mutex::new(first),
+                next: Mutex::new((first, from)),
                 awaited: AtomicUsize::new(awaited),
                 stopped: AtomicBool::new(false),
             }),
@@ -85,8 +87,8 @@ impl<'scope, 'env> CompanionThreads<'scope, 'env> {
             let Some(sender) = self.sender.clone() else {
                 return;
             };
-            let (common, case) = (Arc::clone(&self.common), (self.scene, self.plan));
-            let solve = move || common.solve_all(case, &sender);
+            let (common, scene, plan) = (Arc::clone(&self.common), self.scene, self.plan);
+            let solve = move || common.solve_all(scene, plan, &sender);
             // With fewer threads the same is solved, later.
             let _ = Builder::new().spawn_scoped(self.scope, solve);
         }
@@ -154,7 +156,7 @@ impl Common {
     }
 
     /// Solves one companion after the other until none is left.
-    fn solve_all(&self, (scene, plan): (&Scene, &EffectsPlan), sender: &Sender<Progress>) {
+    fn solve_all(&self, scene: &Scene, plan: &EffectsPlan, sender: &Sender<Progress>) {
         while !self.is_stopped() {
             let (number, from) = self.take_next();
             let Some(companion) = companions::companion(scene, number) else {
@@ -170,7 +172,8 @@ impl Common {
                 sender,
             };
             let solved = run::by_plan(
-                (&companion, plan),
+                &companion,
+                plan,
                 from,
                 &EarlierRuns::default(),
                 &mut observer,

@@ -110,9 +110,9 @@ fn begin_contact<C: Contact>(
         .into_iter()
         .any(|event| observer.on(event).is_break())
     {
-        return Ok(summary((scene, plan, &contact), &run, Outcome::Stopped));
+        return Ok(summary(scene, plan, &contact, &run, Outcome::Stopped));
     }
-    advance((scene, plan.clone()), contact, run, observer)
+    advance(scene, plan.clone(), contact, run, observer)
 }
 
 fn proceed<C: Contact>(
@@ -128,21 +128,22 @@ fn proceed<C: Contact>(
     observer.on_phase(Phase::Cycles);
     let plan = plan.after(&run.crossings);
     let contact = C::resume(scene, &plan, &mut run.state)?;
-    advance((scene, plan), contact, run, observer)
+    advance(scene, plan, contact, run, observer)
 }
 
 /// Computes cycles until the run ends; where it requires an effect that was skipped, it continues from the cycle before with it.
 fn advance<C: Contact>(
-    (scene, mut plan): (&Scene, EffectsPlan),
+    scene: &Scene,
+    mut plan: EffectsPlan,
     mut contact: C,
     mut run: FiniteRun<C::State>,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     loop {
-        let flow = integrate((scene, &plan, &mut contact), &mut run, observer)?;
+        let flow = integrate(scene, &plan, &mut contact, &mut run, observer)?;
         match flow {
             ControlFlow::Break(outcome) => {
-                return Ok(summary((scene, &plan, &contact), &run, outcome));
+                return Ok(summary(scene, &plan, &contact, &run, outcome));
             }
             ControlFlow::Continue(()) => plan = plan.after(&run.crossings),
         }
@@ -152,7 +153,9 @@ fn advance<C: Contact>(
 
 /// Computes cycles until the run ends (`Break`) or requires an effect (`Continue`).
 fn integrate<C: Contact>(
-    (scene, plan, contact): (&Scene, &EffectsPlan, &mut C),
+    scene: &Scene,
+    plan: &EffectsPlan,
+    contact: &mut C,
     run: &mut FiniteRun<C::State>,
     observer: &mut dyn Observer,
 ) -> Result<ControlFlow<Outcome>, SolveError> {
@@ -238,7 +241,9 @@ fn progress<C: Contact>(scene: &Scene, contact: &C, run: &FiniteRun<C::State>) -
 
 /// The summary of a run with its outcome.
 fn summary<C: Contact>(
-    (scene, plan, contact): (&Scene, &EffectsPlan, &C),
+    scene: &Scene,
+    plan: &EffectsPlan,
+    contact: &C,
     run: &FiniteRun<C::State>,
     outcome: Outcome,
 ) -> Summary {

@@ -39,7 +39,7 @@ pub(super) fn load_unworn(
     let mut condensed = condensation::condense(&model, scene.threads)?;
     let (mut crossings, mut widened) = (Vec::new(), 1.0);
     loop {
-        let error = match load(scene, (&plan, &model), &condensed, observer) {
+        let error = match load(scene, &plan, &model, &condensed, observer) {
             Ok((mut run, flow)) => {
                 (run.crossings, run.widened) = (crossings, widened);
                 return Ok(Loaded {
@@ -76,7 +76,8 @@ pub(super) fn load_unworn(
 /// Cycle 0: the unworn, loaded state.
 fn load(
     scene: &Scene,
-    (plan, model): (&EffectsPlan, &Model),
+    plan: &EffectsPlan,
+    model: &Model,
     condensed: &Condensed,
     observer: &mut dyn Observer,
 ) -> Result<(SectionRun, ControlFlow<()>), SolveError> {

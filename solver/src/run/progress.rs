@@ -14,25 +14,27 @@ use crate::sides::Sides;
 /// The outcome of a run that ends here.
 pub(super) fn end(
     scene: &Scene,
-    (model, spines): (&Model, &Spines),
+    model: &Model,
+    spines: &Spines,
     run: &SectionRun,
 ) -> Option<Outcome> {
     let state = &run.state;
     let depth = |side, part| record::worn_surface(model, state, side).depth_of_part(part);
-    stops::end(scene, now(scene, (model, spines), run), depth)
+    stops::end(scene, now(scene, model, spines, run), depth)
 }
 
 /// Progress for its stops.
-pub(super) fn now(scene: &Scene, (model, spines): (&Model, &Spines), run: &SectionRun) -> Progress {
+pub(super) fn now(scene: &Scene, model: &Model, spines: &Spines, run: &SectionRun) -> Progress {
     Progress {
         exceeds_resistance: resistance::exceeds_limit(scene, &run.electrical),
-        ..progress((model, spines), &run.state, run.state.jump.rates())
+        ..progress(model, spines, &run.state, run.state.jump.rates())
     }
 }
 
 /// Progress of the run for its stops, at rates of the contact nodes as equivalent depths, mm a cycle.
 pub(super) fn progress(
-    (model, spines): (&Model, &Spines),
+    model: &Model,
+    spines: &Spines,
     state: &CycleState,
     equivalent: Sides<&[f64]>,
 ) -> Progress {

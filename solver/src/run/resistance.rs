@@ -32,9 +32,12 @@ pub(super) enum Consequence {
 /// its state where skipped effects are required.
 pub(super) fn update(
     evaluation: &Evaluation<'_>,
-    (scene, plan): (&Scene, &EffectsPlan),
-    (model, condensed): (&Model, &Condensed),
-    (run, before): (&mut SectionRun, &CycleState),
+    scene: &Scene,
+    plan: &EffectsPlan,
+    model: &Model,
+    condensed: &Condensed,
+    run: &mut SectionRun,
+    before: &CycleState,
 ) -> Option<Consequence> {
     let electrical = run.electrical.clone();
     let computed = Computed {

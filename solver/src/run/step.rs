@@ -1,7 +1,6 @@
 //! One computed cycle of a run, or what the run needs in its place.
 
 use crate::SolveError;
-use crate::ale::Spines;
 use crate::checkpoint::SectionRun;
 use crate::cycle::{CycleError, CycleRecord, CycleState, Integrator};
 use crate::effects::{Crossing, EffectsPlan};
@@ -31,22 +30,26 @@ pub(super) enum Step {
     Renew(Renewal),
 }
 
-/// Computes the next cycle, up to one at most, or changes the motion to that of the present block from the one that the run has left.
+/// Computes the next cycle, up to `until_limit` at most, or changes the motion to that of the present block from the one that the run has
+/// `left`.
 ///
 /// # Errors
 /// A contact without a solution, whatever effects are simulated.
 pub(super) fn step(
     scene: &Scene,
-    (plan, model): (&EffectsPlan, &Model),
-    (integrator, spines): (&mut Integrator<'_>, &Spines),
-    (run, (left, until_limit)): (&mut SectionRun, (Option<Motion>, u64)),
+    plan: &EffectsPlan,
+    model: &Model,
+    integrator: &mut Integrator<'_>,
+    run: &mut SectionRun,
+    left: Option<Motion>,
+    until_limit: u64,
 ) -> Result<Step, SolveError> {
     let before = run.state.clone();
     let record = match left {
         Some(motion) => integrator
             .change_motion(&mut run.state, motion)
             .map(|()| None),
-        None => next_cycle(scene, model, (integrator, spines), (run, until_limit)).map(Some),
+        None => next_cycle(scene, model, integrator, run, until_limit).map(Some),
     };
     let record = match record {
         Ok(Some(record)) => record,
@@ -90,12 +93,13 @@ fn called_for_by(error: CycleError, plan: &EffectsPlan, cycle: u64) -> Vec<Cross
 fn next_cycle(
     scene: &Scene,
     model: &Model,
-    (integrator, spines): (&mut Integrator<'_>, &Spines),
-    (run, until_limit): (&mut SectionRun, u64),
+    integrator: &mut Integrator<'_>,
+    run: &mut SectionRun,
+    until_limit: u64,
 ) -> Result<CycleRecord, CycleError> {
     let state = &run.state;
     let depth = |side, part| record::worn_surface(model, state, side).depth_of_part(part);
-    let now = now(scene, (model, spines), run);
+    let now = now(scene, model, &integrator.spines, run);
     let next = stops::next(scene, now, depth).min(until_limit);
     let position = run.mission.as_ref().map(|mission| mission.position);
     let until = position.map_or((next, true), |position| position.next_reported(scene, next));

@@ -9,7 +9,8 @@ use crate::scene::Scene;
 /// The summary of a run with its outcome.
 pub(super) fn summary(
     scene: &Scene,
-    (plan, model): (&EffectsPlan, &Model),
+    plan: &EffectsPlan,
+    model: &Model,
     run: &SectionRun,
     outcome: Outcome,
 ) -> Summary {

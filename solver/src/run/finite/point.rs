@@ -105,7 +105,7 @@ impl Contact for PointIntegrator {
         state: &PointState,
         worn: Sides<DepthMap>,
     ) -> Result<Snapshot, SolveError> {
-        Ok(snapshot((scene, self.scene()), state, worn))
+        Ok(snapshot(scene, self.scene(), state, worn))
     }
 
     fn resolution(&self, state: &PointState) -> Resolution {
@@ -171,7 +171,8 @@ fn contact_of(scene: &Scene, plan: &EffectsPlan) -> Result<PointScene, PointErro
 
 /// The snapshot of the present state.
 fn snapshot(
-    (scene, contact): (&Scene, &PointScene),
+    scene: &Scene,
+    contact: &PointScene,
     state: &PointState,
     depth: Sides<DepthMap>,
 ) -> Snapshot {
@@ -196,7 +197,10 @@ fn snapshot(
         cycle: state.cycle(),
         receptacle: profile(Side::Receptacle),
         slider: profile(Side::Slider),
-        positions: placed[..count].iter().map(tractions).collect(),
+        positions: placed[..count]
+            .iter()
+            .map(|&(position, slider_x_mm, placed)| tractions(position, slider_x_mm, placed))
+            .collect(),
         friction_loop: friction_loop(contact, state),
         fields: Vec::new(),
         line_fields: Vec::new(),
@@ -208,7 +212,7 @@ fn snapshot(
     }
 }
 
-fn tractions(&(position, slider_x_mm, placed): &(Position, f64, &Placed)) -> TractionField {
+fn tractions(position: Position, slider_x_mm: f64, placed: &Placed) -> TractionField {
     TractionField {
         position,
         slider_x_mm,

@@ -203,7 +203,7 @@ fn snapshot(sections: &impl Sections, cycle: &StationCycle, worn: Vec<StationPro
             report: *report,
             receptacle: depths(&profile, Side::Receptacle),
             slider: depths(&profile, Side::Slider),
-            positions: placed(sections, (number, &profile)),
+            positions: placed(sections, number, &profile),
         })
         .collect();
     let reference = &stations[sections.reference()];
@@ -228,10 +228,7 @@ fn depths(profile: &StationProfile, side: Side) -> DepthProfile {
 }
 
 /// Tractions of a section at the named positions of the last computed cycle.
-fn placed(
-    sections: &impl Sections,
-    (number, profile): (usize, &StationProfile),
-) -> Vec<TractionField> {
+fn placed(sections: &impl Sections, number: usize, profile: &StationProfile) -> Vec<TractionField> {
     let nodes = profile.x_mm.of(sections.slave());
     let contacts = sections.contacts(number);
     contacts
