@@ -76,14 +76,14 @@ fn bench_cycle(bencher: Bencher<'_, '_>, scene: &Scene, before: u32) {
         .expect("it sets out");
     for _ in 0..before {
         integrator
-            .compute_cycle(&mut loaded, (2, true))
+            .compute_cycle(&mut loaded, 2, true)
             .expect("it slides");
     }
     bencher
         .with_inputs(|| loaded.clone())
         .bench_local_values(|mut state| {
             integrator
-                .compute_cycle(&mut state, (2, true))
+                .compute_cycle(&mut state, 2, true)
                 .expect("it slides")
         });
 }

@@ -208,7 +208,7 @@ impl<'a> Integrator<'a> {
         let contact = (state.mean_half_width, self.pair.interface.sticks);
         let steps = increments::steps(motion, increments::count(motion, accuracy, contact));
         for (increment, step) in increments::initial_quarter(&steps).iter().enumerate() {
-            self.step(state, step, 0.0, (increment, None))?;
+            self.step(state, step, 0.0, increment, None)?;
         }
         Ok(())
     }
@@ -228,7 +228,7 @@ impl<'a> Integrator<'a> {
         let contact = (state.mean_half_width, self.pair.interface.sticks);
         let steps = increments::steps(from, increments::count(from, &self.scene.accuracy, contact));
         for (increment, step) in increments::first_quarter(&steps).iter().enumerate() {
-            self.step(state, step, 0.0, (increment, None))?;
+            self.step(state, step, 0.0, increment, None)?;
         }
         self.initial_quarter(state)
     }
@@ -239,7 +239,8 @@ impl<'a> Integrator<'a> {
         &mut self,
         state: &mut CycleState,
         plan: CyclePlan,
-        (jump, extrapolated): (u64, u64),
+        jump: u64,
+        extrapolated: u64,
         detailed: bool,
     ) -> Result<CycleRecord, CycleError> {
         let steps = &increments::steps(self.scene.motion, plan.steps)[..];
@@ -256,7 +257,7 @@ impl<'a> Integrator<'a> {
             self.stroke = step.stroke;
             if increment > 0 && increments::begins_a_stroke(steps, increment) {
                 state.wear_of_strokes[0] = self.wear_per_cycle(state, &before, jump);
-                energy += self.extrapolate(state, (extrapolated, jump));
+                energy += self.extrapolate(state, extrapolated, jump);
                 before.clone_from(&state.depth.receptacle);
             }
             replays.run(state, steps, increment, |state, to, parts| {
@@ -267,7 +268,7 @@ impl<'a> Integrator<'a> {
                 record.friction_loop.extend(&points);
             }
             let start = warm_starts.of(increment, steps.len());
-            self.step(state, step, real_cycles(jump), (increment, start))?;
+            self.step(state, step, real_cycles(jump), increment, start)?;
             next_starts.push(&state.contact);
             let half_width = state.contact.half_width(&self.pair.slave().x);
             if half_width > 0.0 {
@@ -275,7 +276,7 @@ impl<'a> Integrator<'a> {
                 touching += 1;
             }
             let is_reported = !is_unskewed && !replays.are_planned();
-            self.record(&mut record, state, step.at, (&mut replays, is_reported));
+            self.record(&mut record, state, step.at, &mut replays, is_reported);
             if step.at == Some(Position::Leftmost) {
                 passes.between = Some(self.equivalents(&state.depth));
             }
@@ -291,7 +292,7 @@ impl<'a> Integrator<'a> {
             let after = self.equivalents(&state.depth);
             state.skew.update(&passes, &after, jump);
             let step = self.scene.motion.amplitude_mm().abs() * 4.0 / real(steps.len());
-            self.remove_skew(state, &mut record, (step, detailed));
+            self.remove_skew(state, &mut record, step, detailed);
         }
         let cycles = if done == steps.len() {
             record.friction_loop.begin_at(neutral);
@@ -323,7 +324,8 @@ impl<'a> Integrator<'a> {
         record: &mut CycleRecord,
         state: &mut CycleState,
         at: Option<Position>,
-        (replays, is_reported): (&mut Replays, bool),
+        replays: &mut Replays,
+        is_reported: bool,
     ) {
         let contact = &state.contact;
         let widths = &self.pair.slave().widths;

@@ -339,7 +339,7 @@ fn mirrored_motion_wears_the_mirror_image() {
             integrator.apply_load(&mut state).expect("it settles");
             integrator.initial_quarter(&mut state).expect("it slides");
             while state.cycle < CYCLES {
-                let computed = integrator.compute_cycle(&mut state, (CYCLES, true));
+                let computed = integrator.compute_cycle(&mut state, CYCLES, true);
                 computed.expect("the cycle is solved");
             }
             state

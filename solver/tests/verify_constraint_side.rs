@@ -39,7 +39,7 @@ fn worn(scene: &Scene, slave: Side) -> CycleState {
     integrator.initial_quarter(&mut state).expect("it slides");
     while state.cycle < scene.cycles {
         integrator
-            .compute_cycle(&mut state, (scene.cycles, true))
+            .compute_cycle(&mut state, scene.cycles, true)
             .expect("the cycle can be computed");
     }
     state

@@ -264,7 +264,7 @@ fn a_mirrored_motion_gives_the_mirror_image() {
             .expect("it can be moved");
         while state.cycle < 8 {
             integrator
-                .compute_cycle(&mut state, (8, true))
+                .compute_cycle(&mut state, 8, true)
                 .expect("the cycle can be computed");
         }
         state

@@ -55,7 +55,7 @@ fn slide(scene: &Scene) -> CycleState {
     integrator.initial_quarter(&mut state).expect("it sets out");
     for _ in 0..2 {
         integrator
-            .compute_cycle(&mut state, (2, true))
+            .compute_cycle(&mut state, 2, true)
             .expect("it slides");
     }
     state

@@ -27,7 +27,8 @@ impl Integrator<'_> {
     pub fn compute_cycle(
         &mut self,
         state: &mut CycleState,
-        (until, is_reported): (u64, bool),
+        until: u64,
+        is_reported: bool,
     ) -> Result<CycleRecord, CycleError> {
         let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
         self.heat(state)?;
@@ -44,19 +45,19 @@ impl Integrator<'_> {
                 (jump, [0; 2])
             };
             self.update_surfaces(state, real_cycles(computed));
-            self.extrapolate(state, (extrapolated[0], computed));
+            self.extrapolate(state, extrapolated[0], computed);
             let cycles = Cycles {
                 done: state.cycle,
                 jump: computed,
             };
             let run = (motion, accuracy);
             let plan = CyclePlan::new(run, self.followed(state), (stroke, cycles), detailed);
-            let error = match self.integrate(state, plan, (computed, extrapolated[1]), detailed) {
+            let error = match self.integrate(state, plan, computed, extrapolated[1], detailed) {
                 Ok(record) => {
                     if self.measure_jump(state, &before) > 0.0 {
                         self.correct_extrapolated_energy(state, &before, computed);
                     }
-                    let shorter = self.rejected(state, (stroke, jump));
+                    let shorter = self.rejected(state, stroke, jump);
                     let Some(shorter) = shorter else {
                         return Ok(record);
                     };
@@ -83,7 +84,7 @@ impl Integrator<'_> {
 
     /// A shorter jump where the estimated error of one far exceeds what it may be, as where it has passed an interface of a
     /// plating: the rate before does not foresee that behind it. Of surfaces whose rate depends on their depth.
-    fn rejected(&self, state: &CycleState, (stroke, jump): (Stroke, u64)) -> Option<u64> {
+    fn rejected(&self, state: &CycleState, stroke: Stroke, jump: u64) -> Option<u64> {
         let wear = self.wear;
         let by_depth = |wear: Option<SurfaceWear>| wear.is_some_and(SurfaceWear::depends_on_depth);
         let friction = |side| self.scene.friction.follows_wear_of(side);

@@ -15,11 +15,7 @@ use crate::scene::Spread;
 impl Integrator<'_> {
     /// Wears the receptacle by so many cycles before so many computed ones, by fewer where it would be worn through; returns the
     /// dissipated energy, mJ/mm.
-    pub(super) fn extrapolate(
-        &mut self,
-        state: &mut CycleState,
-        (most, computed): (u64, u64),
-    ) -> f64 {
+    pub(super) fn extrapolate(&mut self, state: &mut CycleState, most: u64, computed: u64) -> f64 {
         let body = &self.pair.operators.receptacle;
         let [one, other] = &state.wear_of_strokes;
         if one.len() != body.x.len() || other.len() != body.x.len() {

@@ -52,7 +52,8 @@ impl Heating {
     /// Takes the contact at the beginning of a computed cycle, whose mean temperature rise, K, it returns with the wear at it.
     pub(super) fn begin_cycle(
         &mut self,
-        (scene, interface): (&Scene, &Interface),
+        scene: &Scene,
+        interface: &Interface,
         state: &CycleState,
     ) -> (f64, Sides<Option<SurfaceWear>>) {
         let friction = (self.sources.friction && state.mean_half_width > 0.0)

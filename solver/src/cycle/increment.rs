@@ -13,7 +13,7 @@ impl Integrator<'_> {
         let Some(heating) = &mut self.heating else {
             return Ok(());
         };
-        let (rise_k, wear) = heating.begin_cycle((self.scene, &self.pair.interface), state);
+        let (rise_k, wear) = heating.begin_cycle(self.scene, &self.pair.interface, state);
         if let Some((hottest_k, melting_k)) = heating.melts() {
             return Err(CycleError::Melts {
                 cycle: state.cycle,
@@ -42,18 +42,23 @@ impl Integrator<'_> {
             Some(heating) => heating.at_speed(pace.speed()),
             None => self.wear,
         };
-        let between = (last.slider_x, to.slider_x);
+        let (from_x, to_x) = (last.slider_x, to.slider_x);
         self.pair.interface.wear = wear.map(|wear| {
             wear.map(|wear| {
                 self.timed
-                    .wear_between(wear, self.stroke, between, distance)
+                    .wear_between(wear, self.stroke, from_x, to_x, distance)
             })
         });
         let done = self
             .solver
             .advance(&self.pair, &surfaces, last, to, &mut self.next)?;
-        let worn = (done.first, done.recession);
-        wear_limit::check(&self.spines, &state.depth, to.slider_x, worn)?;
+        wear_limit::check(
+            &self.spines,
+            &state.depth,
+            to.slider_x,
+            done.first,
+            done.recession,
+        )?;
         for side in Side::BOTH {
             *state.worn_area.of_mut(side) += done.worn_area.of(side);
             let depths = &mut state.depth.of_mut(side)[*done.first.of(side)..];

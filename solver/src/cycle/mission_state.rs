@@ -136,7 +136,8 @@ impl MissionState {
 impl BlockWear {
     /// Wear of a run without a mission, after so many cycles over a distance in mm.
     pub(crate) fn whole(
-        (cycles, sliding_distance_mm): (u64, f64),
+        cycles: u64,
+        sliding_distance_mm: f64,
         energy_mj_per_mm: f64,
         worn_area_mm2: Sides<f64>,
     ) -> Self {

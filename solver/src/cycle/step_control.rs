@@ -37,7 +37,8 @@ impl Integrator<'_> {
         state: &mut CycleState,
         step: &Step,
         cycles: f64,
-        (increment, start): (usize, Option<WarmStart<'_>>),
+        increment: usize,
+        start: Option<WarmStart<'_>>,
     ) -> Result<(), CycleError> {
         let cycle = state.cycle;
         let to = Displacement {

@@ -18,7 +18,8 @@ impl Integrator<'_> {
         &mut self,
         state: &mut CycleState,
         record: &mut CycleRecord,
-        (step, all): (f64, bool),
+        step: f64,
+        all: bool,
     ) {
         let wear = self.wear;
         let equivalents = state.skew.removed_from(&self.equivalents(&state.depth));

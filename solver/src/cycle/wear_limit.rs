@@ -15,7 +15,8 @@ pub(crate) fn check(
     spines: &Spines,
     depth: &Sides<Vec<f64>>,
     slider_x: f64,
-    (first, recession): (Sides<usize>, Sides<&[f64]>),
+    first: Sides<usize>,
+    recession: Sides<&[f64]>,
 ) -> Result<(), ContactError> {
     for side in [Side::Receptacle, Side::Slider] {
         let first = *first.of(side);

@@ -304,8 +304,8 @@ impl Contact {
             self.solver
                 .advance(&extruded, &surfaces, last, slide, next, &mut self.worn)?;
         for (state, worn) in self.planes.states.iter().zip(&self.worn) {
-            let worn = (worn.first, worn.recession.as_slices());
-            wear_limit::check(&self.spines, &state.depth, to, worn)?;
+            let recession = worn.recession.as_slices();
+            wear_limit::check(&self.spines, &state.depth, to, worn.first, recession)?;
         }
         self.accept(bodies, solved, cycles);
         Ok(())

@@ -63,7 +63,8 @@ impl Summary {
         };
         let energy = last.dissipated_energy_mj_per_mm;
         vec![BlockWear::whole(
-            (last.cycle, last.sliding_distance_mm),
+            last.cycle,
+            last.sliding_distance_mm,
             energy,
             areas,
         )]

@@ -102,6 +102,7 @@ fn next_cycle(
     let now = now(scene, model, &integrator.spines, run);
     let next = stops::next(scene, now, depth).min(until_limit);
     let position = run.mission.as_ref().map(|mission| mission.position);
-    let until = position.map_or((next, true), |position| position.next_reported(scene, next));
-    integrator.compute_cycle(&mut run.state, until)
+    let (until, is_reported) =
+        position.map_or((next, true), |position| position.next_reported(scene, next));
+    integrator.compute_cycle(&mut run.state, until, is_reported)
 }

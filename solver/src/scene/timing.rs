@@ -125,7 +125,8 @@ impl TimedMotion {
         &self,
         wear: SurfaceWear,
         stroke: usize,
-        (from, to): (f64, f64),
+        from: f64,
+        to: f64,
         distance_mm: f64,
     ) -> SurfaceWear {
         const PARTS: usize = 16;

@@ -183,8 +183,13 @@ impl Station {
         let done =
             self.solver
                 .advance(&pair, &surfaces, &self.state.contact, to, &mut self.next)?;
-        let worn = (done.first, done.recession);
-        wear_limit::check(&self.spines, &self.state.depth, to.slider_x, worn)?;
+        wear_limit::check(
+            &self.spines,
+            &self.state.depth,
+            to.slider_x,
+            done.first,
+            done.recession,
+        )?;
         self.state.work += done.work;
         let attempt = &mut self.attempt;
         let slave = self.interface.slave;

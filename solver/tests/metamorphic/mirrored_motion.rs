@@ -54,7 +54,7 @@ fn the_mirror_image(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, SolveError>
         integrator.apply_load(&mut state)?;
         integrator.initial_quarter(&mut state)?;
         while state.cycle < COMPUTED * JUMP {
-            integrator.compute_cycle(&mut state, (COMPUTED * JUMP, true))?;
+            integrator.compute_cycle(&mut state, COMPUTED * JUMP, true)?;
         }
         Ok(state)
     };

@@ -60,7 +60,7 @@ pub(super) fn compare(folder: &Path, element_um: f64) -> Result<Comparison, Benc
         let lowered_mm = -state.contact.height;
         integrator.initial_quarter(&mut state)?;
         // Short of its stop, so that the loop has no points besides the increments.
-        let cycle = integrator.compute_cycle(&mut state, (2, true))?;
+        let cycle = integrator.compute_cycle(&mut state, 2, true)?;
         Ok((lowered_mm, cycle.friction_loop.tangential_force_n_per_mm))
     })
     .map_err(|error: CycleError| SolveError::from(error))?;

@@ -200,7 +200,7 @@ fn time_cycle(scene: &Scene) -> Result<(f64, f64, f64), SolveError> {
         integrator.initial_quarter(&mut state)?;
         let before = state.work.increments;
         // Short of its stop, so that the loop has no points besides the increments.
-        let (cycle_s, _) = measured(1, || integrator.compute_cycle(&mut state, (2, true)))?;
+        let (cycle_s, _) = measured(1, || integrator.compute_cycle(&mut state, 2, true))?;
         best = best.min(cycle_s);
         increments = state.work.increments - before;
     }

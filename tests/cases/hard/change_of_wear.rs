@@ -38,7 +38,7 @@ fn wear_coefficient_can_change_a_hundredfold_between_two_cycles() {
         let until = state.cycle + 300;
         while state.cycle < until {
             integrator
-                .compute_cycle(&mut state, (until, true))
+                .compute_cycle(&mut state, until, true)
                 .expect("the cycle goes through");
         }
         // In gross slip the dissipated energy is mu times the integral of p |slip|.
