@@ -204,9 +204,7 @@ impl<'a> Integrator<'a> {
     /// # Errors
     /// [`CycleError`] if an increment fails however small it is.
     pub fn initial_quarter(&mut self, state: &mut CycleState) -> Result<(), CycleError> {
-        let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
-        let contact = (state.mean_half_width, self.pair.interface.sticks);
-        let steps = increments::steps(motion, increments::count(motion, accuracy, contact));
+        let steps = self.steps(self.scene.motion, state);
         for (increment, step) in increments::initial_quarter(&steps).iter().enumerate() {
             self.step(state, step, 0.0, increment, None)?;
         }
@@ -224,9 +222,7 @@ impl<'a> Integrator<'a> {
         from: Motion,
     ) -> Result<(), CycleError> {
         self.update_surfaces(state, 0.0);
-        let from = from.outer();
-        let contact = (state.mean_half_width, self.pair.interface.sticks);
-        let steps = increments::steps(from, increments::count(from, &self.scene.accuracy, contact));
+        let steps = self.steps(from.outer(), state);
         for (increment, step) in increments::first_quarter(&steps).iter().enumerate() {
             self.step(state, step, 0.0, increment, None)?;
         }

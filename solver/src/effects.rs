@@ -151,7 +151,8 @@ impl EffectsPlan {
     pub fn crossed(
         &self,
         scene: &Scene,
-        (back_to, cycle): (u64, u64),
+        back_to: u64,
+        cycle: u64,
         depth: Sides<f64>,
     ) -> Vec<Crossing> {
         let indicators = Indicators::of(scene);

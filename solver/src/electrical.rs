@@ -21,6 +21,7 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
+use crate::change::Change;
 use crate::law::resistance::Film;
 use crate::scene::Electrical;
 use crate::sides::{Side, Sides};
@@ -132,8 +133,9 @@ pub(crate) struct ElectricalChange<'a> {
 
 impl ElectricalChange<'_> {
     /// The resistances before and after, mOhm, if both are computed.
-    pub(crate) fn total_mohm(self) -> Option<(f64, f64)> {
-        self.before.total_mohm().zip(self.after.total_mohm())
+    pub(crate) fn total_mohm(self) -> Option<Change<f64>> {
+        let both = self.before.total_mohm().zip(self.after.total_mohm());
+        both.map(|(before, after)| Change { before, after })
     }
 }
 

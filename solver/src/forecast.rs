@@ -20,6 +20,7 @@ mod line;
 mod point;
 mod surrogate;
 
+use crate::change::Change;
 use crate::closed_form::expected_wear::expected_end;
 use crate::model::Layout;
 use crate::number::{cycles_at_least, real, real_cycles};
@@ -138,13 +139,16 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
             done: cycle,
             jump: if stroke.is_groove { 1 } else { step },
         };
-        let plan = CyclePlan::new((*motion, accuracy), followed, (stroke, cycles), detailed);
+        let plan = CyclePlan::new(*motion, accuracy, followed, stroke, cycles, detailed);
         let together = batch_size(scene, run.computed_cycles, (until - cycle) / step);
         let before = scar.depth.clone();
         scar.wear(step * together);
         let done = step * together;
-        let depths = (before.as_slices(), scar.depth.as_slices());
-        jump.update((scar.widths(), 0.0), depths, done);
+        let depth = Change {
+            before: before.as_slices(),
+            after: scar.depth.as_slices(),
+        };
+        jump.update(scar.widths(), 0.0, depth, done);
         cycle += done;
         run.computed_cycles += real_cycles(together);
         // A quarter of a cycle from the last motion to the neutral position, and another one from there.

@@ -2,6 +2,7 @@
 
 pub mod ale;
 pub mod along_line;
+mod change;
 pub mod checkpoint;
 pub mod closed_form;
 pub mod condensation;

@@ -2,6 +2,7 @@
 
 use super::extrapolation::loss_of_load;
 use super::{CycleError, CycleRecord, CycleState, Integrator};
+use crate::change::Change;
 use crate::closed_form::unworn_contact::radius;
 use crate::law::elastic::contact_modulus;
 use crate::law::surface::SurfaceWear;
@@ -50,8 +51,8 @@ impl Integrator<'_> {
                 done: state.cycle,
                 jump: computed,
             };
-            let run = (motion, accuracy);
-            let plan = CyclePlan::new(run, self.followed(state), (stroke, cycles), detailed);
+            let contact = self.followed(state);
+            let plan = CyclePlan::new(motion, accuracy, contact, stroke, cycles, detailed);
             let error = match self.integrate(state, plan, computed, extrapolated[1], detailed) {
                 Ok(record) => {
                     if self.measure_jump(state, &before) > 0.0 {
@@ -101,12 +102,15 @@ impl Integrator<'_> {
         let load = |state: &CycleState| state.contact.load(&self.pair.interface);
         state.loss_of_load = loss_of_load(load(before), load(state), real_cycles(done));
         let widths = self.pair.operators.as_ref().map(|body| &body.widths[..]);
-        let depths = (&before.depth, &state.depth);
-        let worn = EquivalentWear::new(&self.wear, widths, depths);
-        let friction = self.change_of_friction(depths, worn.depths());
+        let depth = Change {
+            before: &before.depth,
+            after: &state.depth,
+        };
+        let worn = EquivalentWear::new(&self.wear, widths, depth);
+        let friction = self.change_of_friction(depth, worn.depths());
         state
             .jump
-            .update((worn.weights(), friction), worn.depths(), done);
+            .update(worn.weights(), friction, worn.depths(), done);
         friction
     }
 

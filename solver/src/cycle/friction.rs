@@ -7,6 +7,7 @@
 //! over the nodes of both surfaces with their widths w and doses dD: that of the energy dissipated in gross slip.
 
 use super::{CycleState, Integrator};
+use crate::change::Change;
 use crate::law::surface::SurfaceWear;
 use crate::model::friction::ContactFriction;
 use crate::number::real_cycles;
@@ -53,19 +54,19 @@ impl Integrator<'_> {
     }
 
     /// Half the relative change of the coefficient of friction from one state to another, both given by their worn depths and
-    /// equivalents, mm; none where it is the same everywhere.
+    /// their equivalents, mm; none where it is the same everywhere.
     pub(super) fn change_of_friction(
         &self,
-        (before, after): (&Sides<Vec<f64>>, &Sides<Vec<f64>>),
-        (worn_before, worn_after): (Sides<&[f64]>, Sides<&[f64]>),
+        depth: Change<&Sides<Vec<f64>>>,
+        worn: Change<Sides<&[f64]>>,
     ) -> f64 {
         let (mut change, mut total) = (0.0, 0.0);
         for side in Side::BOTH {
             let Some(friction) = self.friction.of_surface(side) else {
                 continue;
             };
-            let depths = before.of(side).iter().zip(after.of(side));
-            let worn = worn_before.of(side).iter().zip(*worn_after.of(side));
+            let depths = depth.before.of(side).iter().zip(depth.after.of(side));
+            let worn = worn.before.of(side).iter().zip(*worn.after.of(side));
             let widths = &self.pair.operators.of(side).widths;
             let rate = self.wear.of(side).and_then(SurfaceWear::dose_rate);
             let rate = rate.unwrap_or(1.0);

@@ -3,6 +3,8 @@
 use super::{CycleError, CycleState, Integrator};
 use crate::contact::{ContactError, Displacement, WarmStart};
 use crate::number::real;
+use crate::scene::Motion;
+use crate::schedule::increments;
 use crate::schedule::step::Step;
 
 /// Retries of an increment.
@@ -32,6 +34,13 @@ const REPLAY_RETRY: RetryPolicy = RetryPolicy {
 const REVERSAL: [f64; 5] = [0.03125, 0.0625, 0.125, 0.25, 0.5];
 
 impl Integrator<'_> {
+    /// Increments of a cycle of a motion for the present contact.
+    pub(super) fn steps(&self, motion: Motion, state: &CycleState) -> Vec<Step> {
+        let (half_width, sticks) = (state.mean_half_width, self.pair.interface.sticks);
+        let count = increments::count(motion, &self.scene.accuracy, half_width, sticks);
+        increments::steps(motion, count)
+    }
+
     pub(super) fn step(
         &mut self,
         state: &mut CycleState,

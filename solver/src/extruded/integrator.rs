@@ -90,8 +90,9 @@ impl ExtrudedIntegrator {
 
     /// Slides to the turning point where cycles begin, without wear.
     fn initial_quarter(&mut self) -> Result<(), ExtrudedError> {
-        let contact = (self.contact.planes.mean_half_width, false);
-        let count = increments::count(self.plane.motion, &self.plane.accuracy, contact);
+        let half_width = self.contact.planes.mean_half_width;
+        let (motion, accuracy) = (self.plane.motion, &self.plane.accuracy);
+        let count = increments::count(motion, accuracy, half_width, false);
         let steps = increments::steps(self.scene.section.motion, count);
         let quarter = increments::initial_quarter(&steps);
         loop {

@@ -9,6 +9,7 @@ use super::course::Course;
 use super::edges::Edges;
 use super::solved;
 use super::surrogate::Scar;
+use crate::change::Change;
 use crate::closed_form::expected_wear;
 use crate::extruded::ExtrudedScene;
 use crate::model::Layout;
@@ -92,24 +93,26 @@ pub fn line_forecast(scene: &Scene, layout: &Layout) -> Option<LineForecast> {
             share,
             planes: 1,
         };
-        return Some(forecast((scene, layout), sections, (line.stations, solves)));
+        return Some(forecast(scene, layout, sections, line.stations, solves));
     }
     let extruded = ExtrudedScene::of(scene)?;
     let planes = extruded.node_planes();
-    let section = Section::new((scene, layout), scene.motion, 1.0);
+    let section = Section::new(scene, layout, scene.motion, 1.0);
     let solves = Solves {
         each: EXTRUDED_SOLVES,
         share: 1.0,
         planes,
     };
-    Some(forecast((scene, layout), vec![section], (planes, solves)))
+    Some(forecast(scene, layout, vec![section], planes, solves))
 }
 
 /// Forecasts a run of followed sections, of so many stations.
 fn forecast(
-    (scene, layout): (&Scene, &Layout),
+    scene: &Scene,
+    layout: &Layout,
     mut sections: Vec<Section>,
-    (stations, solves): (usize, Solves),
+    stations: usize,
+    solves: Solves,
 ) -> LineForecast {
     let x = layout.bodies.of(layout.sizes.slave).contact_x();
     let mut forecast = LineForecast {
@@ -131,7 +134,7 @@ fn forecast(
     {
         if forecast.solves.len() / sections.len() >= MOST_CYCLES {
             let end = expected_wear::expected_end(scene).max(cycle);
-            forecast.extrapolate((cycle, end), (last, sections.len()));
+            forecast.extrapolate(cycle, end, last, sections.len());
             break;
         }
         let now = progress(&sections, cycle);
@@ -219,7 +222,7 @@ fn followed(scene: &Scene, line: &StationScene, layout: &Layout) -> Vec<Section>
             amplitude_mm: (amplitude * cos).max(recedes),
             period_s: scene.motion.period_s().unwrap_or(1.0),
         };
-        let mut section = Section::new((scene, layout), motion, load);
+        let mut section = Section::new(scene, layout, motion, load);
         section.scar.area_per_cycle = load * whole;
         section
     });
@@ -228,7 +231,7 @@ fn followed(scene: &Scene, line: &StationScene, layout: &Layout) -> Vec<Section>
 
 impl Section {
     /// A section in a motion under its line load over the mean one.
-    fn new((scene, layout): (&Scene, &Layout), motion: Motion, load: f64) -> Self {
+    fn new(scene: &Scene, layout: &Layout, motion: Motion, load: f64) -> Self {
         let own = Scene {
             dimension: Dimension::PlaneStrain,
             load_n_per_mm: load * scene.load_n_per_mm,
@@ -250,9 +253,12 @@ impl Section {
     fn wear(&mut self, jump: u64) {
         let before = self.scar.depth.clone();
         self.scar.wear(jump);
-        let depths = (before.as_slices(), self.scar.depth.as_slices());
+        let depth = Change {
+            before: before.as_slices(),
+            after: self.scar.depth.as_slices(),
+        };
         self.jump.share(jump);
-        self.jump.update((self.scar.widths(), 0.0), depths, jump);
+        self.jump.update(self.scar.widths(), 0.0, depth, jump);
     }
 
     /// Counts a condensation of the bodies that have changed where one has drifted, for so many sections.
@@ -281,8 +287,8 @@ fn increments(scene: &Scene, sections: &[Section], cycles: Cycles) -> usize {
             single: section.scar.half_width,
             sticks: false,
         };
-        let run = (section.motion, &scene.accuracy);
-        CyclePlan::new(run, followed, (stroke, cycles), false).increments()
+        let (motion, accuracy) = (section.motion, &scene.accuracy);
+        CyclePlan::new(motion, accuracy, followed, stroke, cycles, false).increments()
     };
     sections.iter().map(of_section).fold(1, usize::max)
 }
@@ -315,8 +321,8 @@ fn progress(sections: &[Section], cycle: u64) -> Progress {
 }
 
 impl LineForecast {
-    /// Extrapolates the rest of a long run from its last computed cycle, of a jump.
-    fn extrapolate(&mut self, (done, end): (u64, u64), (jump, sections): (u64, usize)) {
+    /// Extrapolates a long run from the cycles done to its end from its last computed cycle, of a jump.
+    fn extrapolate(&mut self, done: u64, end: u64, jump: u64, sections: usize) {
         let computed = real_cycles(end - done) / real_cycles(jump);
         self.computed_cycles += computed;
         let last = self.solves.len().saturating_sub(sections);

@@ -8,6 +8,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Exposed;
+use crate::change::Change;
 use crate::interpolation::part_way;
 use crate::number::real_cycles;
 use crate::scene::{Criterion, Scene};
@@ -84,9 +85,10 @@ impl Life {
         &mut self,
         limits: &[f64],
         cycles: CycleRange,
-        (before, after): (f64, f64),
+        resistance_mohm: Change<f64>,
         part_at: impl Fn(f64, &[CriterionState]) -> f64,
     ) {
+        let Change { before, after } = resistance_mohm;
         self.resistance
             .resize(limits.len(), CriterionState::default());
         for (state, limit) in self.resistance.iter_mut().zip(limits) {
@@ -113,7 +115,11 @@ impl Life {
             .resize(scene.life.len(), CriterionState::default());
         for (state, criterion) in self.criteria.iter_mut().zip(&scene.life) {
             let worn = surface(criterion.side);
-            state.follow(scene, *criterion, &worn, (self.cycle, cycle));
+            let cycles = CycleRange {
+                from: self.cycle,
+                to: cycle,
+            };
+            state.follow(scene, *criterion, &worn, cycles);
         }
         self.cycle = cycle;
     }
@@ -138,7 +144,7 @@ impl CriterionState {
         scene: &Scene,
         criterion: Criterion,
         worn: &impl Exposed,
-        (last, cycle): (u64, u64),
+        range: CycleRange,
     ) {
         let Criterion {
             side,
@@ -155,13 +161,13 @@ impl CriterionState {
             (depth, depth_mm)
         };
         self.equivalent = after;
-        let cycles = real_cycles(cycle - last);
+        let cycles = real_cycles(range.to - range.from);
         let rate = (after - before) / cycles;
         let is_end = wear.is_some_and(|wear| depth_mm >= wear.deepest());
         if self.cycles.is_none() && depth >= depth_mm {
             let needed = (at - before) / if is_end { self.rate } else { rate };
             let needed = if needed.is_finite() { needed } else { cycles };
-            self.cycles = Some(real_cycles(last) + needed.clamp(0.0, cycles));
+            self.cycles = Some(real_cycles(range.from) + needed.clamp(0.0, cycles));
         }
         self.rate = rate;
     }
@@ -192,12 +198,13 @@ mod tests {
     fn a_resistance_is_reached_between_computed_cycles() {
         let mut life = Life::default();
         let limits = [1.0, 3.0, 10.0];
-        let mut next = |cycle, resistances| {
+        let mut next = |cycle, (before, after)| {
             let cycles = CycleRange {
                 from: cycle - 100,
                 to: cycle,
             };
-            life.push_resistance(&limits, cycles, resistances, |limit, _| limit / 12.0);
+            let change = Change { before, after };
+            life.push_resistance(&limits, cycles, change, |limit, _| limit / 12.0);
             life.resistance
                 .iter()
                 .map(|state| state.cycles)

@@ -169,8 +169,8 @@ fn integrate<C: Contact>(
         let now = progress(scene, contact, run);
         let until = stops::next(scene, now, |side, part| scars.of(side).depth_of_part(part));
         contact.compute_cycle(&mut run.state, until.min(until_limit))?;
-        let cycles = (C::cycle(&before), C::cycle(&run.state));
-        let called_for = plan.crossed(scene, cycles, C::max_depth_mm(&run.state));
+        let (back_to, cycle) = (C::cycle(&before), C::cycle(&run.state));
+        let called_for = plan.crossed(scene, back_to, cycle, C::max_depth_mm(&run.state));
         if !called_for.is_empty() {
             run.state = before;
             run.crossings.extend(called_for);

@@ -78,8 +78,8 @@ pub(super) fn consequence(
     change: ElectricalChange<'_>,
 ) -> Option<Consequence> {
     let electrical = scene.conduction.known()?;
-    let resistances = change.total_mohm()?;
-    if let Some(sooner) = stops::resistance_passed(electrical, (from, to), resistances) {
+    let resistance = change.total_mohm()?;
+    if let Some(sooner) = stops::resistance_passed(electrical, from, to, resistance) {
         return Some(Consequence::GoTo(sooner));
     }
     let called_for = plan.crossed_by_current(scene, from, change.after);
@@ -97,10 +97,10 @@ pub(super) fn push_life(
     contact: impl Fn(f64, Sides<f64>) -> Touching,
 ) {
     let limits = scene.conduction.known().map(|known| &known.life_mohm[..]);
-    let (Some(limits), Some(resistances)) = (limits, change.total_mohm()) else {
+    let (Some(limits), Some(resistance)) = (limits, change.total_mohm()) else {
         return;
     };
-    life.push_resistance(limits, cycles, resistances, |limit, criteria| {
+    life.push_resistance(limits, cycles, resistance, |limit, criteria| {
         evaluation.part_at(limit, change, |part| {
             contact(part, unreached(scene, criteria, cycles.after(part)))
         })

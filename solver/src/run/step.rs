@@ -72,8 +72,8 @@ pub(super) fn step(
         }
     };
     let state = &run.state;
-    let cycles = (before.cycle, state.cycle);
-    let called_for = plan.crossed(scene, cycles, state.depth.largest_of_each());
+    let depth = state.depth.largest_of_each();
+    let called_for = plan.crossed(scene, before.cycle, state.cycle, depth);
     if called_for.is_empty() {
         return Ok(Step::Cycle(Box::new(before), Box::new(record)));
     }

@@ -3,6 +3,7 @@
 
 use std::borrow::Cow;
 
+use crate::change::Change;
 use crate::law::surface::{self, SurfaceWear};
 use crate::sides::Sides;
 
@@ -19,17 +20,17 @@ impl<'a> EquivalentWear<'a> {
     pub(crate) fn new(
         wear: &Sides<Option<SurfaceWear>>,
         widths: Sides<&'a [f64]>,
-        (before, after): (&'a Sides<Vec<f64>>, &'a Sides<Vec<f64>>),
+        depth: Change<&'a Sides<Vec<f64>>>,
     ) -> Self {
         let equivalents = |depth: &'a Sides<Vec<f64>>| {
             Sides::from_fn(|side| surface::equivalents(*wear.of(side), depth.of(side)))
         };
         Self {
             weights: Sides::from_fn(|side| {
-                surface::at_relative_rates(*wear.of(side), widths.of(side), after.of(side))
+                surface::at_relative_rates(*wear.of(side), widths.of(side), depth.after.of(side))
             }),
-            before: equivalents(before),
-            after: equivalents(after),
+            before: equivalents(depth.before),
+            after: equivalents(depth.after),
         }
     }
 
@@ -39,8 +40,11 @@ impl<'a> EquivalentWear<'a> {
     }
 
     /// Equivalent depths before and after, mm.
-    pub(crate) fn depths(&self) -> (Sides<&[f64]>, Sides<&[f64]>) {
-        (slices(&self.before), slices(&self.after))
+    pub(crate) fn depths(&self) -> Change<Sides<&[f64]>> {
+        Change {
+            before: slices(&self.before),
+            after: slices(&self.after),
+        }
     }
 }
 

@@ -17,16 +17,16 @@ pub use super::step::Position;
 const QUARTER: f64 = 0.25;
 
 /// Number of increments of one cycle for a contact of a half-width, mm, part of which may stick through the whole stroke.
-pub(crate) fn count(motion: Motion, accuracy: &Accuracy, contact: (f64, bool)) -> usize {
+pub(crate) fn count(motion: Motion, accuracy: &Accuracy, half_width: f64, sticks: bool) -> usize {
     match motion {
         Motion::Continuous { .. } => 1,
         Motion::Reciprocating { amplitude_mm, .. } => {
-            4 * steps_per_quarter(accuracy, (amplitude_mm, QUARTER), contact)
+            4 * steps_per_quarter(accuracy, amplitude_mm, QUARTER, half_width, sticks)
         }
         Motion::Periodic { turns, .. } => {
             let amplitude = turns.amplitude_mm().abs();
             let share = amplitude / turns.path_mm();
-            let quarter = steps_per_quarter(accuracy, (amplitude, share), contact);
+            let quarter = steps_per_quarter(accuracy, amplitude, share, half_width, sticks);
             turning_steps::count(&turns, quarter)
         }
     }
@@ -88,8 +88,10 @@ pub(crate) fn first_quarter(steps: &[Step]) -> &[Step] {
 /// Steps over the amplitude of a motion, which is a share of its path in a cycle.
 fn steps_per_quarter(
     accuracy: &Accuracy,
-    (amplitude, share): (f64, f64),
-    (half_width, sticks): (f64, bool),
+    amplitude: f64,
+    share: f64,
+    half_width: f64,
+    sticks: bool,
 ) -> usize {
     let Accuracy {
         tolerance,
@@ -144,7 +146,7 @@ mod tests {
         ..Accuracy::from_tolerance(0.02)
     };
 
-    const CONTACT: (f64, bool) = (0.1, false);
+    const HALF_WIDTH: f64 = 0.1;
 
     fn places(steps: &[Step]) -> Vec<f64> {
         steps.iter().map(|step| step.slider_x).collect()
@@ -156,7 +158,7 @@ mod tests {
             amplitude_mm: 2.0,
             period_s: 1.0,
         };
-        let steps = steps(motion, count(motion, &ACCURACY, CONTACT));
+        let steps = steps(motion, count(motion, &ACCURACY, HALF_WIDTH, false));
         assert_eq!(
             places(&steps),
             vec![1.0, 0.0, -1.0, -2.0, -1.0, 0.0, 1.0, 2.0]
@@ -176,7 +178,7 @@ mod tests {
             amplitude_mm: 2.0,
             period_s: 1.0,
         };
-        let places = places(&steps(motion, count(motion, &accuracy, CONTACT)));
+        let places = places(&steps(motion, count(motion, &accuracy, HALF_WIDTH, false)));
         assert!(
             places
                 .windows(2)
@@ -201,7 +203,7 @@ mod tests {
                 refinement,
                 ..ACCURACY
             };
-            count(motion, &accuracy, CONTACT)
+            count(motion, &accuracy, HALF_WIDTH, false)
         };
         assert_eq!((count(Some(8), 1.0), count(Some(8), 2.0)), (8, 16));
         assert_eq!((count(None, 1.0), count(None, 0.25)), (400, 100));

@@ -9,6 +9,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::stroke::Stroke;
+use crate::change::Change;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Accuracy;
 use crate::sides::{Side, Sides};
@@ -146,8 +147,9 @@ impl JumpControl {
     /// error by the change of friction in it is added.
     pub(crate) fn update(
         &mut self,
-        (weights, friction): (Sides<&[f64]>, f64),
-        (before, after): (Sides<&[f64]>, Sides<&[f64]>),
+        weights: Sides<&[f64]>,
+        friction: f64,
+        depth: Change<Sides<&[f64]>>,
         jump: u64,
     ) {
         let dn = real_cycles(jump);
@@ -163,7 +165,7 @@ impl JumpControl {
             let (weights, rates) = (*weights.of(side), self.rate.of_mut(side));
             known &= rates.len() == weights.len();
             rates.resize(weights.len(), 0.0);
-            let worn = before.of(side).iter().zip(*after.of(side));
+            let worn = depth.before.of(side).iter().zip(*depth.after.of(side));
             for ((old, (before, after)), width) in rates.iter_mut().zip(worn).zip(weights) {
                 let rate = (after - before) / dn;
                 change += width * (rate - *old).abs();

@@ -85,7 +85,7 @@ impl MissionPosition {
             next.block = block;
         } else {
             next.done += self.together;
-            next.together = rounds(scene, mission, (next.done, now), depth);
+            next.together = rounds(scene, mission, next.done, now, depth);
             next.block = next.following(mission, 0).unwrap_or_default();
         }
         let cycles = next.cycles(mission, next.block);
@@ -98,7 +98,8 @@ impl MissionPosition {
 fn rounds(
     scene: &Scene,
     mission: &Mission,
-    (done, now): (u64, Progress),
+    done: u64,
+    now: Progress,
     depth: impl Fn(Side, f64) -> f64,
 ) -> u64 {
     let accuracy = &scene.accuracy;

@@ -69,9 +69,11 @@ pub(crate) struct CyclePlan {
 impl CyclePlan {
     /// Plans a computed cycle of a stroke; with replays at all named positions where `detailed`.
     pub(crate) fn new(
-        (motion, accuracy): (Motion, &Accuracy),
+        motion: Motion,
+        accuracy: &Accuracy,
         contact: Followed,
-        (stroke, cycles): (Stroke, Cycles),
+        stroke: Stroke,
+        cycles: Cycles,
         detailed: bool,
     ) -> Self {
         // A single cycle needs none, and that to the neutral position need not begin before the turning point.
@@ -87,7 +89,7 @@ impl CyclePlan {
         };
         let is_evenly_worn = stroke.skew <= accuracy.tuning.unskewed_to;
         let plan = |half_width, replayed| {
-            let steps = increments::count(motion, accuracy, (half_width, contact.sticks));
+            let steps = increments::count(motion, accuracy, half_width, contact.sticks);
             let length = path / real(steps);
             let is_skewed = is_evenly_worn && !stroke.gross && steps > 1 && !motion.turns_inside();
             let replays = if replayed {
@@ -96,7 +98,7 @@ impl CyclePlan {
                     length,
                     amplitude: amplitude / path * length * real(steps),
                 };
-                ReplayPlan::new(cycle, accuracy, (lead_in, contact.single), detailed)
+                ReplayPlan::new(cycle, accuracy, lead_in, contact.single, detailed)
             } else {
                 ReplayPlan::default()
             };
@@ -174,9 +176,11 @@ mod tests {
 
     fn plan(half_width: f64, stroke: Stroke, cycles: Cycles) -> CyclePlan {
         CyclePlan::new(
-            (MOTION, &ACCURACY),
+            MOTION,
+            &ACCURACY,
             contact(half_width),
-            (stroke, cycles),
+            stroke,
+            cycles,
             false,
         )
     }
@@ -208,8 +212,8 @@ mod tests {
             ..ACCURACY
         };
         let plan = |accuracy, stroke| {
-            let (run, stroke) = ((MOTION, accuracy), (stroke, cycles(99, 1)));
-            CyclePlan::new(run, contact(1.0), stroke, false).steps
+            let cycles = cycles(99, 1);
+            CyclePlan::new(MOTION, accuracy, contact(1.0), stroke, cycles, false).steps
         };
         assert_eq!(plan(&single, stroke(1.2, 0.0)), 1_000);
         // An amplitude of half a half-width.

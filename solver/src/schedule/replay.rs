@@ -45,7 +45,8 @@ impl ReplayPlan {
     pub(crate) fn new(
         cycle: ReplayedCycle,
         accuracy: &Accuracy,
-        (lead_in, single): (f64, f64),
+        lead_in: f64,
+        single: f64,
         all: bool,
     ) -> Self {
         if single <= 0.0 {
@@ -127,7 +128,7 @@ mod tests {
             length: 0.5,
             amplitude: 10.0,
         };
-        ReplayPlan::new(cycle, &ACCURACY, (8.0, single), all)
+        ReplayPlan::new(cycle, &ACCURACY, 8.0, single, all)
     }
 
     #[test]

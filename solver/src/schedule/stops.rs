@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::change::Change;
 use crate::law::surface::SurfaceWear;
 use crate::number::{cycles_at_least, real_cycles};
 use crate::scene::{Criterion, Electrical, Scene};
@@ -76,16 +77,18 @@ pub(crate) fn next(scene: &Scene, now: Progress, depth: impl Fn(Side, f64) -> f6
         .min(now.cycle.saturating_add(cycles_at_least(cycles.floor())))
 }
 
-/// The cycle to go to instead where the resistance of the contact has passed a limit in a step that is too long: a limit that ends the
+/// The cycle to go to instead where the resistance of the contact has passed a limit in a step between cycles that is too long: a limit that ends the
 /// run is met to one cycle, that of a life to a small step. The resistance jumps where a layer is through, so that no rate before foresees
 /// it; the step is cut to where a linear resistance would meet the limit, at most to half.
 pub(crate) fn resistance_passed(
     electrical: &Electrical,
-    (last, cycle): (u64, u64),
-    (before, after): (f64, f64),
+    from: u64,
+    to: u64,
+    resistance_mohm: Change<f64>,
 ) -> Option<u64> {
-    let done = cycle - last;
-    let least = cycles_at_least(LIFE_STEP * real_cycles(last));
+    let Change { before, after } = resistance_mohm;
+    let done = to - from;
+    let least = cycles_at_least(LIFE_STEP * real_cycles(from));
     let stops = electrical.stop_mohm.iter().map(|limit| (*limit, 1));
     let lives = electrical.life_mohm.iter().map(|limit| (*limit, least));
     let passed = stops
@@ -95,7 +98,7 @@ pub(crate) fn resistance_passed(
         let linear = real_cycles(done) * (limit - before) / (after - before);
         cycles_at_least(linear).min(done / 2).max(allowed)
     });
-    steps.min().map(|step| last + step)
+    steps.min().map(|step| from + step)
 }
 
 /// The next cycle at which the coefficient of friction begins to change at another rate.
@@ -247,7 +250,9 @@ mod tests {
             life_mohm: life_mohm.to_vec(),
         };
         let stop = of(&[10.0], &[]);
-        let passed = |cycles, resistances| resistance_passed(&stop, cycles, resistances);
+        let passed = |(from, to), (before, after)| {
+            resistance_passed(&stop, from, to, Change { before, after })
+        };
         assert_eq!(passed((1_000, 2_000), (2.0, 4.0)), None);
         assert_eq!(passed((1_000, 2_000), (2.0, 34.0)), Some(1_250));
         // At most to half, at least by a cycle.
@@ -257,7 +262,9 @@ mod tests {
         // A limit that was passed before does not count.
         assert_eq!(passed((1_000, 2_000), (12.0, 34.0)), None);
         let life = of(&[], &[10.0, 20.0]);
-        let passed = |cycles, resistances| resistance_passed(&life, cycles, resistances);
+        let passed = |(from, to), (before, after)| {
+            resistance_passed(&life, from, to, Change { before, after })
+        };
         assert_eq!(passed((1_000, 2_000), (2.0, 34.0)), Some(1_250));
         assert_eq!(passed((1_000, 1_010), (2.0, 34.0)), None);
         assert_eq!(passed((1_000, 1_012), (2.0, 1e9)), Some(1_010));

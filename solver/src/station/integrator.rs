@@ -182,8 +182,8 @@ impl LineIntegrator {
     /// Slides to the turning point where cycles begin, without wear.
     fn initial_quarter(&mut self) -> Result<(), StationError> {
         let count = self.largest(|run, j| {
-            let contact = (run.line.stations[j].state.mean_half_width, false);
-            increments::count(run.motion(j), &run.plane.accuracy, contact)
+            let half_width = run.line.stations[j].state.mean_half_width;
+            increments::count(run.motion(j), &run.plane.accuracy, half_width, false)
         });
         let steps = increments::steps(self.plane.motion, count);
         let quarter = increments::initial_quarter(&steps);

@@ -1,6 +1,7 @@
 //! Inputs of the schedule of a run: one jump and one series of increments for all planes.
 
 use super::ExtrudedIntegrator;
+use crate::change::Change;
 use crate::extruded::state::Planes;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
@@ -58,10 +59,14 @@ impl ExtrudedIntegrator {
             })
         };
         let (before, after) = (depths(before), depths(&self.contact.planes));
+        let depth = Change {
+            before: &before,
+            after: &after,
+        };
         let wear = &self.contact.interface.wear;
-        let worn = EquivalentWear::new(wear, widths.as_slices(), (&before, &after));
+        let worn = EquivalentWear::new(wear, widths.as_slices(), depth);
         let control = &mut self.common.jump;
-        control.update((worn.weights(), 0.0), worn.depths(), jump);
+        control.update(worn.weights(), 0.0, worn.depths(), jump);
     }
 
     /// Limits of the jump besides its error. Every jump wears in the increments of one cycle: nothing is extrapolated in a groove.
@@ -101,7 +106,7 @@ impl ExtrudedIntegrator {
             single: self.single_cycle_half_width(),
             sticks: false,
         };
-        let run = (self.plane.motion, &self.plane.accuracy);
-        CyclePlan::new(run, followed, (self.stroke(), cycles), false)
+        let (motion, accuracy) = (self.plane.motion, &self.plane.accuracy);
+        CyclePlan::new(motion, accuracy, followed, self.stroke(), cycles, false)
     }
 }

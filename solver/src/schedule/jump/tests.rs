@@ -6,6 +6,13 @@ use crate::schedule::stroke::Passes;
 
 const ACCURACY: Accuracy = Accuracy::from_tolerance(0.02);
 
+fn change<'a>(before: &'a Sides<Vec<f64>>, after: &'a Sides<Vec<f64>>) -> Change<Sides<&'a [f64]>> {
+    Change {
+        before: before.as_slices(),
+        after: after.as_slices(),
+    }
+}
+
 /// Wears the only node of the receptacle.
 fn wear(control: &mut JumpControl, before: f64, after: f64, jump: u64) {
     let depth = |receptacle: f64| Sides {
@@ -16,11 +23,8 @@ fn wear(control: &mut JumpControl, before: f64, after: f64, jump: u64) {
         slider: &[1.0][..],
         receptacle: &[1.0][..],
     };
-    control.update(
-        (widths, 0.0),
-        (depth(before).as_slices(), depth(after).as_slices()),
-        jump,
-    );
+    let (before, after) = (depth(before), depth(after));
+    control.update(widths, 0.0, change(&before, &after), jump);
 }
 
 const STROKE: Stroke = Stroke {
@@ -64,17 +68,13 @@ fn either_surface_controls_the_jump() {
             slider: &of_three[..],
             receptacle: &of_two[..],
         };
-        one.update((widths, 0.0), (step[0].as_slices(), step[1].as_slices()), 5);
+        one.update(widths, 0.0, change(&step[0], &step[1]), 5);
         let widths = Sides {
             slider: &of_two[..],
             receptacle: &of_three[..],
         };
         let swapped = [swap(&step[0]), swap(&step[1])];
-        other.update(
-            (widths, 0.0),
-            (swapped[0].as_slices(), swapped[1].as_slices()),
-            5,
-        );
+        other.update(widths, 0.0, change(&swapped[0], &swapped[1]), 5);
     }
     assert!((one.error - other.error).abs() < 1e-15 && one.error > 0.1);
     assert!((one.fastest_rate().receptacle - 0.8).abs() < 1e-15);

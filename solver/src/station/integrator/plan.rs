@@ -111,7 +111,14 @@ impl LineIntegrator {
             single: state.neutral.half_width.max(state.unworn_half_width),
             sticks: false,
         };
-        let run = (self.motion(station), &self.plane.accuracy);
-        CyclePlan::new(run, followed, (self.stroke(station), cycles), false)
+        let (motion, stroke) = (self.motion(station), self.stroke(station));
+        CyclePlan::new(
+            motion,
+            &self.plane.accuracy,
+            followed,
+            stroke,
+            cycles,
+            false,
+        )
     }
 }

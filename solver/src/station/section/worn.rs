@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::Station;
 use crate::ale;
 use crate::along_line;
+use crate::change::Change;
 use crate::law::surface::{self, SurfaceWear};
 use crate::law::wear::LocalState;
 use crate::model::ZONE_WIDENING;
@@ -76,10 +77,14 @@ impl Station {
     pub(in crate::station) fn measure_jump(&mut self, before: &Sides<Vec<f64>>, jump: u64) {
         let operators = &self.section.condensed.operators;
         let widths = operators.as_ref().map(|body| &body.widths[..]);
-        let worn = EquivalentWear::new(&self.interface.wear, widths, (before, &self.state.depth));
+        let depth = Change {
+            before,
+            after: &self.state.depth,
+        };
+        let worn = EquivalentWear::new(&self.interface.wear, widths, depth);
         let control = &mut self.state.jump;
         control.share(jump);
-        control.update((worn.weights(), 0.0), worn.depths(), jump);
+        control.update(worn.weights(), 0.0, worn.depths(), jump);
     }
 
     /// Returns `true` if the section has drifted from the geometry of its operators; these are then those of the present depths.
