@@ -26,7 +26,7 @@ pub(crate) struct LineRecord {
 
 impl LineRecord {
     /// Appends a point of the loop.
-    pub(crate) fn push(&mut self, (displacement, force_n): (f64, f64), length_mm: f64) {
+    pub(crate) fn push(&mut self, displacement: f64, force_n: f64, length_mm: f64) {
         let found = &mut self.friction_loop;
         found.displacement_mm.push(displacement);
         found.tangential_force_n_per_mm.push(force_n / length_mm);

@@ -33,7 +33,8 @@ pub enum FarFace {
 /// # Errors
 /// [`OperatorError`] if an element is inverted or reaches over the axis of a ring.
 pub fn harmonic_compliances(
-    (body, side): (&BodyModel, Side),
+    body: &BodyModel,
+    side: Side,
     half_width: f64,
     waves: &[(Waves, FarFace)],
 ) -> Result<Vec<f64>, OperatorError> {

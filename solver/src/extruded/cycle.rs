@@ -96,7 +96,8 @@ impl Contact {
         &mut self,
         bodies: &Bodies,
         steps: &[Step],
-        (cycles, replays): (f64, &ReplayPlan),
+        cycles: f64,
+        replays: &ReplayPlan,
     ) -> Result<LineRecord, (u32, ContactError)> {
         self.update_slopes(bodies);
         let mut starts = vec![WarmStarts::default(); self.planes.states.len()];
@@ -121,7 +122,7 @@ impl Contact {
                 touching += 1;
             }
             let force_n = bodies.width_mm() * self.tangential_force(bodies);
-            record.push((step.slider_x, force_n), bodies.width_mm());
+            record.push(step.slider_x, force_n, bodies.width_mm());
             if let Some(position) = step.at {
                 let found = replayed
                     .iter()

@@ -50,7 +50,7 @@ impl ExtrudedIntegrator {
             placed,
             ..LineRecord::default()
         });
-        run.common.last = run.report(0, &run.paths(), (0, 0));
+        run.common.last = run.report(0, &run.paths(), 0, 0);
         let state = run.state();
         Ok((run, state))
     }
@@ -99,7 +99,7 @@ impl ExtrudedIntegrator {
             let before = self.contact.planes.clone();
             let slid = self
                 .contact
-                .slide(&self.bodies, quarter, (0.0, &ReplayPlan::default()));
+                .slide(&self.bodies, quarter, 0.0, &ReplayPlan::default());
             let Err((halvings, error)) = slid else {
                 return Ok(());
             };
@@ -123,14 +123,14 @@ impl ExtrudedIntegrator {
         }
         self.follow_wear()?;
         let before = self.contact.planes.clone();
-        let (paths, solves) = (self.paths(), self.solves());
+        let (paths, (increments, iterations)) = (self.paths(), self.solves());
         let done = self.common.done;
         let mut jump = self.next_jump(until.max(done + 1) - done);
         loop {
             let plan = self.cycle_plan(Cycles { done, jump });
             let steps = increments::steps(self.scene.section.motion, plan.steps);
-            let wear = (real_cycles(jump), &plan.replays);
-            let failed = match self.contact.slide(&self.bodies, &steps, wear) {
+            let (contact, cycles) = (&mut self.contact, real_cycles(jump));
+            let failed = match contact.slide(&self.bodies, &steps, cycles, &plan.replays) {
                 Ok(record) => {
                     let control = self.common.jump.clone();
                     self.measure_jump(&before, jump);
@@ -160,7 +160,7 @@ impl ExtrudedIntegrator {
         }
         self.common.done += jump;
         self.common.computed += 1;
-        self.common.last = self.report(jump, &paths, solves);
+        self.common.last = self.report(jump, &paths, increments, iterations);
         *state = self.state();
         Ok(())
     }

@@ -32,7 +32,8 @@ impl Carrier {
     pub(super) fn coupled_heights(
         &self,
         coupling: &Coupling,
-        (stations, last): (&mut [Station], &Height),
+        stations: &mut [Station],
+        last: &Height,
         increment: Increment,
     ) -> Result<Found, Unsolved> {
         let mut v = last.predicted(increment.cycles);
@@ -51,7 +52,7 @@ impl Carrier {
             let imbalance = found_n - self.force_at(last, v);
             let attempted = stations.iter().map(Station::attempted_indentation);
             let largest = attempted.fold(indentation(stations), f64::max);
-            let correction = self.correction(coupling, (stations, last), (&lifts, imbalance));
+            let correction = self.correction(coupling, stations, last, &lifts, imbalance);
             let Some(correction) = correction else {
                 // Nothing touches.
                 v -= LARGEST_STEP * largest;
@@ -94,8 +95,10 @@ impl Carrier {
     fn correction(
         &self,
         coupling: &Coupling,
-        (stations, last): (&[Station], &Height),
-        (lifts, imbalance): (&[f64], f64),
+        stations: &[Station],
+        last: &Height,
+        lifts: &[f64],
+        imbalance: f64,
     ) -> Option<Correction> {
         let count = stations.len();
         let slope = |j: usize| stations[j].attempt.load_per_height;

@@ -48,7 +48,8 @@ impl Coupling {
     /// A section that cannot be meshed or condensed.
     pub(super) fn of(
         scene: &StationScene,
-        (plane, plan): (&Scene, &EffectsPlan),
+        plane: &Scene,
+        plan: &EffectsPlan,
         places: &[Place],
     ) -> Result<Option<Self>, StationError> {
         if !scene.is_coupled() || places.len() < 3 {
@@ -68,8 +69,8 @@ impl Coupling {
         } else {
             count_at_least(length / (SHORTEST * smallest))
         };
-        let loaded = (plane, plan, scene.touch().line_load);
-        let per_load = lifts((scene.top, radius_mm), loaded, (length, most))?;
+        let line_load = scene.touch().line_load;
+        let per_load = lifts(scene.top, radius_mm, plane, plan, line_load, length, most)?;
         let phase = |j: usize, n: usize| PI * real(n) * (along[j] - first) / length;
         let whole: f64 = places.iter().map(|place| place.weight_mm).sum();
         let mut matrix = SquareMatrix::zeros(places.len());
@@ -121,9 +122,13 @@ fn under_hat(along: &[f64], k: usize, cos: impl Fn(usize) -> f64) -> f64 {
 
 /// `delta_n` of the waves 1 to `most` along a length, mm per N/mm: computed of some, and linear in ln n between them.
 fn lifts(
-    (top, radius_mm): (Top, Option<f64>),
-    (plane, plan, line_load): (&Scene, &EffectsPlan, f64),
-    (length, most): (f64, usize),
+    top: Top,
+    radius_mm: Option<f64>,
+    plane: &Scene,
+    plan: &EffectsPlan,
+    line_load: f64,
+    length: f64,
+    most: usize,
 ) -> Result<Vec<f64>, StationError> {
     let mut computed = vec![0];
     while let Some(last) = computed.last().copied().filter(|last| *last < most) {
@@ -158,8 +163,8 @@ fn lifts(
     let mut sums = vec![0.0; computed.len()];
     for side in Side::BOTH {
         let waves: Vec<_> = computed.iter().map(|&n| waves(n, side)).collect();
-        let body = (model.bodies.of(side), side);
-        let compliances = harmonic_compliances(body, half_width, &waves)?;
+        let body = model.bodies.of(side);
+        let compliances = harmonic_compliances(body, side, half_width, &waves)?;
         for (sum, compliance) in sums.iter_mut().zip(&compliances) {
             *sum += compliance - compliances[0];
         }
@@ -193,9 +198,13 @@ mod tests {
         let plan = crate::effects::plan(&plane);
         let (radius_mm, waves) = (0.4826, 16);
         let found = lifts(
-            (Top::Rigid, Some(radius_mm)),
-            (&plane, &plan, plane.load_n_per_mm),
-            (PI * radius_mm, waves),
+            Top::Rigid,
+            Some(radius_mm),
+            &plane,
+            &plan,
+            plane.load_n_per_mm,
+            PI * radius_mm,
+            waves,
         );
         let found = found.expect("the sections can be condensed");
         let largest = found

@@ -18,6 +18,14 @@ pub(super) struct Line {
     pub(super) common: Common,
 }
 
+/// A copy of what increments change.
+pub(super) struct SavedLine {
+    pub(super) stations: Vec<StationState>,
+    height: Height,
+    /// Displacement of the slider, mm.
+    slider_x: f64,
+}
+
 impl Line {
     /// Takes the steps of a cycle, each of which stands for so many cycles, with replays of single ones.
     ///
@@ -56,7 +64,7 @@ impl Line {
                     touching[j] += 1;
                 }
             }
-            record.push((step.slider_x, self.tangential_force_n()), self.length_mm());
+            record.push(step.slider_x, self.tangential_force_n(), self.length_mm());
             if let Some(position) = step.at {
                 let found = replayed
                     .iter()
@@ -186,18 +194,18 @@ impl Line {
     }
 
     /// A copy of what increments change.
-    pub(super) fn snapshot(&self) -> (Vec<StationState>, Height, f64) {
+    pub(super) fn snapshot(&self) -> SavedLine {
         let states = self.stations.iter().map(|station| station.state.clone());
-        (
-            states.collect(),
-            self.common.height.clone(),
-            self.common.slider_x,
-        )
+        SavedLine {
+            stations: states.collect(),
+            height: self.common.height.clone(),
+            slider_x: self.common.slider_x,
+        }
     }
 
     /// Goes back to a copy, with the jump controls and the work as they are.
-    pub(super) fn restore(&mut self, before: &(Vec<StationState>, Height, f64)) {
-        for (station, state) in self.stations.iter_mut().zip(&before.0) {
+    pub(super) fn restore(&mut self, before: &SavedLine) {
+        for (station, state) in self.stations.iter_mut().zip(&before.stations) {
             let jump = std::mem::take(&mut station.state.jump);
             station.state = StationState {
                 jump,
@@ -205,7 +213,8 @@ impl Line {
                 ..state.clone()
             };
         }
-        (self.common.height, self.common.slider_x) = (before.1.clone(), before.2);
+        self.common.height = before.height.clone();
+        self.common.slider_x = before.slider_x;
     }
 }
 

@@ -63,7 +63,7 @@ impl LineIntegrator {
         let threads = Arc::clone(&integrator.threads);
         threads.within(|| integrator.apply_load())?;
         integrator.record.placed = vec![integrator.line.placed(Position::Neutral)];
-        integrator.line.common.last = integrator.report(0, &integrator.paths(), (0, 0));
+        integrator.line.common.last = integrator.report(0, &integrator.paths(), 0, 0);
         let state = integrator.state();
         Ok((integrator, state))
     }
@@ -98,9 +98,9 @@ impl LineIntegrator {
         let (spring, slave) = (built.interface.spring, built.interface.slave);
         let unworn = Arc::new(Section::unworn(built)?);
         let untouched = ContactState::untouched(&unworn.condensed.operators, slave);
-        let spaced = (scene.touch(), intervals_within(&scene.section.accuracy));
-        let places = places(scene.line, scene.stations, spaced);
-        let coupling = Coupling::of(scene, (&plane, plan), &places)?;
+        let within = intervals_within(&scene.section.accuracy);
+        let places = places(scene.line, scene.stations, scene.touch(), within);
+        let coupling = Coupling::of(scene, &plane, plan, &places)?;
         let stations = places.into_iter().map(|place| {
             let state = StationState::unworn(untouched.clone(), &unworn.model);
             Station::new(place, &unworn, state)
@@ -222,12 +222,12 @@ impl LineIntegrator {
         }
         self.follow_wear()?;
         let paths = self.paths();
-        let work = (self.line.common.increments, self.line.common.iterations);
+        let (increments, iterations) = (self.line.common.increments, self.line.common.iterations);
         let jump = self.take_jump(until)?;
         let common = &mut self.line.common;
         common.done += jump;
         common.computed += 1;
-        self.line.common.last = self.report(jump, &paths, work);
+        self.line.common.last = self.report(jump, &paths, increments, iterations);
         *state = self.state();
         Ok(())
     }
@@ -244,7 +244,7 @@ impl LineIntegrator {
             let slid = self.line.slide(&steps, real_cycles(jump), &plan.replays);
             let (halvings, error) = match slid {
                 Ok(record) => {
-                    self.measure_jump(&before.0, jump);
+                    self.measure_jump(&before.stations, jump);
                     let Some(shorter) = self.rejected(jump) else {
                         let most = &mut self.line.common.most_increments;
                         *most = (*most).max(steps.len());
@@ -252,7 +252,7 @@ impl LineIntegrator {
                         return Ok(jump);
                     };
                     // Back to the controls before the jump as well.
-                    for (station, state) in self.line.stations.iter_mut().zip(&before.0) {
+                    for (station, state) in self.line.stations.iter_mut().zip(&before.stations) {
                         station.state.jump = state.jump.clone();
                         station.state.jump.limit(shorter);
                     }

@@ -39,11 +39,7 @@ pub(super) struct Displaced {
 /// Evenly spaced places: a half ring, which stands for both, or a straight line, of which a half stands for both without a tilt.
 /// The sections of a straight line are evenly spaced in the unworn contact, which reaches from the place that touches first as far as `touch` says
 /// and has so many intervals, and farther apart beyond.
-pub(super) fn places(
-    line: LineShape,
-    stations: usize,
-    (touch, within): (Touch, usize),
-) -> Vec<Place> {
+pub(super) fn places(line: LineShape, stations: usize, touch: Touch, within: usize) -> Vec<Place> {
     let spacings = real(stations - 1);
     let share = |j: usize| {
         if j == 0 || j == stations - 1 {
@@ -75,8 +71,8 @@ pub(super) fn places(
             ..
         } => {
             let (left, right) = spacing::sides(line, touch.at_mm);
-            let count = spacing::divided(stations - 1, (left, right));
-            let from = |length, count| spacing::places(length, touch.length_mm, (within, count));
+            let count = spacing::divided(stations - 1, left, right);
+            let from = |length, count| spacing::places(length, touch.length_mm, within, count);
             let before = from(left, count.0).into_iter().skip(1).rev();
             let after = from(right, count.1);
             let at: Vec<f64> = before
@@ -166,7 +162,7 @@ mod tests {
     use crate::closed_form::line_contact::touch;
 
     fn placed(line: LineShape, stations: usize) -> Vec<Place> {
-        places(line, stations, (touch(line, 0.1, 1e5), 4))
+        places(line, stations, touch(line, 0.1, 1e5), 4)
     }
 
     #[test]

@@ -126,8 +126,8 @@ impl StationScene {
     /// Number of stations within a distance in mm from the place that touches first.
     pub(crate) fn stations_within(&self, mm: f64) -> usize {
         let touch = self.touch();
-        let spaced = (touch, intervals_within(&self.section.accuracy));
-        let places = places(self.line, self.stations, spaced).into_iter();
+        let within = intervals_within(&self.section.accuracy);
+        let places = places(self.line, self.stations, touch, within).into_iter();
         let along = places.map(|place| place.along_mm());
         along.filter(|z| (z - touch.at_mm).abs() <= mm).count()
     }

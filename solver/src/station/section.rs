@@ -129,9 +129,9 @@ impl Station {
             }),
             None => like.and_then(|(number, count)| starts.of(number, count)),
         };
-        let mut solved = self.advance(increment, height, (start, raised.is_some()));
+        let mut solved = self.advance(increment, height, start, raised.is_some());
         if solved.is_err() && start.is_some() {
-            solved = self.advance(increment, height, (None, false));
+            solved = self.advance(increment, height, None, false);
         }
         self.state.warm_starts = starts;
         solved
@@ -157,7 +157,8 @@ impl Station {
         &mut self,
         increment: Increment,
         height: Option<f64>,
-        (start, repeated): (Option<WarmStart<'_>>, bool),
+        start: Option<WarmStart<'_>>,
+        repeated: bool,
     ) -> Result<(), ContactError> {
         let moved = self.place.displaced(increment.from, increment.to);
         let to = Displacement {

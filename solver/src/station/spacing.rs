@@ -25,14 +25,14 @@ pub(super) fn intervals(length: f64, contact: f64, within: usize) -> usize {
         return count_at_least(length / first);
     }
     let mut count = within;
-    while reach(first, (within, count), LARGEST_GROWTH) < length {
+    while reach(first, within, count, LARGEST_GROWTH) < length {
         count += 1;
     }
     count.min(count_at_least(length / first))
 }
 
 /// Places from 0 to a length in so many intervals; 0 alone in none.
-pub(super) fn places(length: f64, contact: f64, (within, count): (usize, usize)) -> Vec<f64> {
+pub(super) fn places(length: f64, contact: f64, within: usize, count: usize) -> Vec<f64> {
     if count == 0 {
         return vec![0.0];
     }
@@ -44,21 +44,21 @@ pub(super) fn places(length: f64, contact: f64, (within, count): (usize, usize))
     let (mut low, mut high) = (1.0, length / first + 1.0);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        if reach(first, (within, count), middle) < length {
+        if reach(first, within, count, middle) < length {
             low = middle;
         } else {
             high = middle;
         }
     }
     let factor = 0.5 * (low + high);
-    let whole = reach(first, (within, count), factor);
+    let whole = reach(first, within, count, factor);
     (0..=count)
-        .map(|j| length * reach(first, (within, j), factor) / whole)
+        .map(|j| length * reach(first, within, j, factor) / whole)
         .collect()
 }
 
 /// Where so many intervals end: the first ones are even.
-fn reach(first: f64, (within, count): (usize, usize), factor: f64) -> f64 {
+fn reach(first: f64, within: usize, count: usize, factor: f64) -> f64 {
     let even = real(count.min(within));
     let (mut sum, mut spacing) = (even * first, first);
     for _ in within..count {
@@ -69,7 +69,7 @@ fn reach(first: f64, (within, count): (usize, usize), factor: f64) -> f64 {
 }
 
 /// Divides intervals between two lengths in proportion, at least one to each that is not 0.
-pub(super) fn divided(intervals: usize, (left, right): (f64, f64)) -> (usize, usize) {
+pub(super) fn divided(intervals: usize, left: f64, right: f64) -> (usize, usize) {
     let share = nearest(real(intervals) * left / (left + right));
     let least = usize::from(left > 0.0);
     let most = intervals - usize::from(right > 0.0).min(intervals);
@@ -84,7 +84,7 @@ mod tests {
     #[test]
     fn spacings_are_even_in_the_contact_and_grow_beyond() {
         let count = intervals(1.0, 0.05, 4);
-        let places = places(1.0, 0.05, (4, count));
+        let places = places(1.0, 0.05, 4, count);
         assert!((places[count] - 1.0).abs() < 1e-15 && places[0] == 0.0);
         let spacings: Vec<f64> = places.windows(2).map(|pair| pair[1] - pair[0]).collect();
         for (j, pair) in spacings.windows(2).enumerate() {
@@ -103,14 +103,14 @@ mod tests {
         assert_eq!(intervals(1.0, 1.0, 8), 8);
         // 4 of 1/8, then 0.1875, 0.28125 and what is left.
         assert_eq!(intervals(1.0, 0.5, 4), 7);
-        let even = places(1.0, 0.5, (4, 10));
+        let even = places(1.0, 0.5, 4, 10);
         assert!(
             even.windows(2)
                 .all(|pair| (pair[1] - pair[0] - 0.1).abs() < 1e-15)
         );
-        assert_eq!(places(0.0, 0.5, (4, 0)), [0.0]);
-        assert_eq!(divided(64, (31.0, 33.0)), (31, 33));
-        assert_eq!(divided(8, (0.0, 1.0)), (0, 8));
-        assert_eq!(divided(8, (1e-9, 1.0)), (1, 7));
+        assert_eq!(places(0.0, 0.5, 4, 0), [0.0]);
+        assert_eq!(divided(64, 31.0, 33.0), (31, 33));
+        assert_eq!(divided(8, 0.0, 1.0), (0, 8));
+        assert_eq!(divided(8, 1e-9, 1.0), (1, 7));
     }
 }

@@ -75,7 +75,7 @@ impl Carrier {
                             let alone = self.common_height(stations, height, increment)?;
                             height.mm = alone.mm;
                         }
-                        self.coupled_heights(coupling, (stations, height), increment)?
+                        self.coupled_heights(coupling, stations, height, increment)?
                     }
                     None => self.common_height(stations, height, increment)?,
                 };

@@ -53,7 +53,7 @@ fn body(side: Side, far: FarFace) -> Body {
         (waves, if n < 2 { FarFace::Held } else { far })
     };
     let waves: Vec<_> = (0..PLACES).map(waves).collect();
-    let found = harmonic_compliances((body, side), HALF_WIDTH, &waves);
+    let found = harmonic_compliances(body, side, HALF_WIDTH, &waves);
     let found = found.expect("the body is held");
     let compliance = waves.into_iter();
     Body {

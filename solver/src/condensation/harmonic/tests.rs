@@ -25,8 +25,8 @@ fn draft() -> Scene {
 }
 
 fn of(model: &Model, side: Side, waves: &[(Waves, FarFace)]) -> Vec<f64> {
-    let body = (model.bodies.of(side), side);
-    harmonic_compliances(body, HALF_WIDTH, waves).expect("the body is held")
+    let body = model.bodies.of(side);
+    harmonic_compliances(body, side, HALF_WIDTH, waves).expect("the body is held")
 }
 
 fn straight(per_mm: f64) -> Waves {

@@ -29,7 +29,13 @@ impl ExtrudedIntegrator {
     }
 
     /// Reports a computed cycle of a jump that began with these paths, increments and iterations.
-    pub(super) fn report(&self, jump: u64, paths: &[f64], solves: (usize, usize)) -> StationCycle {
+    pub(super) fn report(
+        &self,
+        jump: u64,
+        paths: &[f64],
+        increments: usize,
+        iterations: usize,
+    ) -> StationCycle {
         let per_cycle = self.plane.motion.distance_per_cycle_mm().abs();
         let slid = per_cycle * real_cycles(jump);
         let states = &self.contact.planes.states;
@@ -75,8 +81,8 @@ impl ExtrudedIntegrator {
             ideal_volume_mm3: ideal(self.scene.force_n() * distance, dead),
             dissipated_energy_mj: over_width(&|k| states[k].energy),
             jump_error: self.common.jump.error,
-            increments: effort.increments - solves.0,
-            iterations: effort.iterations - solves.1,
+            increments: effort.increments - increments,
+            iterations: effort.iterations - iterations,
             stations,
         }
     }

@@ -20,7 +20,13 @@ impl LineIntegrator {
     }
 
     /// Reports a computed cycle of a jump that began with these paths, increments and iterations.
-    pub(super) fn report(&self, jump: u64, paths: &[f64], work: (usize, usize)) -> StationCycle {
+    pub(super) fn report(
+        &self,
+        jump: u64,
+        paths: &[f64],
+        increments: usize,
+        iterations: usize,
+    ) -> StationCycle {
         let (line, common) = (&self.line, &self.line.common);
         let per_cycle = self.plane.motion.distance_per_cycle_mm().abs();
         let slid = per_cycle * real_cycles(jump);
@@ -58,8 +64,8 @@ impl LineIntegrator {
             ideal_volume_mm3: ideal(self.scene.force_n * distance, dead),
             dissipated_energy_mj: over_line(&|j| states[j].state.energy),
             jump_error: errors.fold(0.0, f64::max),
-            increments: common.increments - work.0,
-            iterations: common.iterations - work.1,
+            increments: common.increments - increments,
+            iterations: common.iterations - iterations,
             stations: reports,
         }
     }
