@@ -81,7 +81,8 @@ fn spreading_of(model: &Model, side: Side) -> Result<Option<Spreading>, Operator
 /// # Errors
 /// [`OperatorError`] if an element is inverted or a body is not held.
 pub fn renew(
-    (model, before): (&Model, &Model),
+    model: &Model,
+    before: &Model,
     earlier: Condensed,
     threads: usize,
 ) -> Result<Condensed, OperatorError> {
@@ -138,7 +139,8 @@ impl Condensed {
     pub fn displacements(
         &self,
         model: &Model,
-        (side, zone): (Side, usize),
+        side: Side,
+        zone: usize,
         contact_force: &[f64],
         load: f64,
     ) -> Result<Vec<[f64; 2]>, OperatorError> {

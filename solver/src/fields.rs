@@ -156,7 +156,7 @@ pub fn placed(
                 Side::Receptacle => (-1.0, 0.0, [0.0; 2]),
             };
             let force: Vec<f64> = contact.force.of(side).iter().map(|f| sign * f).collect();
-            let fields = recover(model, condensed, (side, zone), &force, load)?;
+            let fields = recover(model, condensed, side, zone, &force, load)?;
             Ok(fields.placed(&worn.bodies.of(side).zones[zone], place)?)
         };
         Ok(PlacedFields {
@@ -188,11 +188,12 @@ impl BodyFields {
 pub fn recover(
     model: &Model,
     condensed: &Condensed,
-    (side, zone): (Side, usize),
+    side: Side,
+    zone: usize,
     contact_force: &[f64],
     load: f64,
 ) -> Result<BodyFields, OperatorError> {
-    let displacement_mm = condensed.displacements(model, (side, zone), contact_force, load)?;
+    let displacement_mm = condensed.displacements(model, side, zone, contact_force, load)?;
     let model = &model.bodies.of(side).zones[zone];
     let nodes = model.mesh.coordinates();
     let cells = model.mesh.cells();
@@ -204,7 +205,7 @@ pub fn recover(
                 let u = n.map(|n| displacement_mm[n]);
                 let modes = incompatible::amplitudes(&places, model.lame, model.b_bar, &u);
                 let modes = modes.unwrap_or_default();
-                add::<Quad4, 4>(&mut sums, n, (&places, &u), model.lame, |corner, det| {
+                add::<Quad4, 4>(&mut sums, n, &places, &u, model.lame, |corner, det| {
                     Some((
                         modes,
                         incompatible::mode_gradients::<Quad4, 4, 2>(&places, corner, det)?,
@@ -213,7 +214,7 @@ pub fn recover(
             }
             Cell::Tri(n) => {
                 let (places, u) = (n.map(|n| nodes[n]), n.map(|n| displacement_mm[n]));
-                add::<Tri3, 3>(&mut sums, n, (&places, &u), model.lame, |_, _| None);
+                add::<Tri3, 3>(&mut sums, n, &places, &u, model.lame, |_, _| None);
             }
         }
     }
@@ -243,7 +244,8 @@ type Modes = ([[f64; 2]; 2], [[f64; 2]; 2]);
 fn add<E: Element<N, 2>, const N: usize>(
     sums: &mut [(Stress, f64)],
     cell: &[usize; N],
-    (places, u): (&[[f64; 2]; N], &[[f64; 2]; N]),
+    places: &[[f64; 2]; N],
+    u: &[[f64; 2]; N],
     lame: Lame,
     modes: impl Fn([f64; 2], f64) -> Option<Modes>,
 ) {
@@ -320,7 +322,7 @@ mod tests {
             .iter()
             .flat_map(|w| [0.0, -7.0 * w])
             .collect();
-        let fields = recover(&model, &condensed, (Side::Receptacle, 0), &force, 0.0)
+        let fields = recover(&model, &condensed, Side::Receptacle, 0, &force, 0.0)
             .expect("the block is factored");
         let mesh = &model.bodies.receptacle.zones[0].mesh;
         let middle = mesh.surface_node(mesh.spines() / 2);

@@ -156,7 +156,7 @@ fn advance(
         run.relocated();
         let moved = run.model(&model)?;
         observer.on_phase(Phase::Condense);
-        condensed = condensation::renew((&moved, &model), condensed, scene.threads)?;
+        condensed = condensation::renew(&moved, &model, condensed, scene.threads)?;
         model = moved;
     }
 }

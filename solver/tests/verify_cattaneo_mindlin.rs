@@ -126,9 +126,15 @@ impl Bench {
     /// sigma_xx at the receptacle's surface nodes: places, mm, and MPa.
     fn surface_stress(&self, state: &ContactState) -> Vec<(f64, f64)> {
         let force: Vec<f64> = state.force.receptacle.iter().map(|f| -f).collect();
-        let whole = (Side::Receptacle, 0);
-        let fields = fields::recover(&self.model, &self.condensed, whole, &force, 0.0)
-            .expect("the factor is stored");
+        let fields = fields::recover(
+            &self.model,
+            &self.condensed,
+            Side::Receptacle,
+            0,
+            &force,
+            0.0,
+        )
+        .expect("the factor is stored");
         let mesh = &self.model.bodies.receptacle.zones[0].mesh;
         let surface = (0..mesh.spines()).map(|i| mesh.surface_node(i));
         surface

@@ -84,7 +84,7 @@ fn compressed_displacements_are_those_of_the_compliance() {
             .map(|i| real((i * i) % 17) - 8.0)
             .collect();
         let mut compressed = vec![0.0; 2 * of.len()];
-        zone.add_displacements((&from, &forces), (&of, &mut compressed));
+        zone.add_displacements(&from, &forces, &of, &mut compressed);
         let mut exact = vec![0.0; 2 * of.len()];
         for (j, force) in from.clone().zip(forces.as_chunks::<2>().0) {
             let [per_x, per_y] = zone.to_force_at(j, &of);

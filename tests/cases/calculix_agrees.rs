@@ -38,7 +38,7 @@ fn ours() -> Ours {
         .expect("it settles");
     let reaction: Vec<f64> = state.contact.force.receptacle.iter().map(|f| -f).collect();
     let all = condensed
-        .displacements(&model, (Side::Receptacle, 0), &reaction, 0.0)
+        .displacements(&model, Side::Receptacle, 0, &reaction, 0.0)
         .expect("the factor is stored");
     let body = &model.bodies.receptacle;
     let mesh = &body.zones[0].mesh;

@@ -54,8 +54,10 @@ impl PrismZone {
     /// The response of a range of nodes of a section to a line force at a node of another.
     pub fn to_force_at(
         &self,
-        (section, node): (usize, usize),
-        (of_section, of): (usize, &Range<usize>),
+        section: usize,
+        node: usize,
+        of_section: usize,
+        of: &Range<usize>,
     ) -> Response<'_> {
         let from = |node: usize, section: usize| section * self.nodes + node - self.first;
         let range = from(of.start, of_section)..from(of.end, of_section);
@@ -98,13 +100,15 @@ impl ExtrudedOperators {
     pub fn interior(
         &self,
         models: &[Model],
-        (planes, ends): (&NodePlanes, Ends),
-        (side, zone): (Side, usize),
+        planes: &NodePlanes,
+        ends: Ends,
+        side: Side,
+        zone: usize,
     ) -> Result<PrismInterior, OperatorError> {
         let bodies: Vec<&BodyModel> = models.iter().map(|m| m.bodies.of(side)).collect();
         let known = self.zones.of(side).get(zone);
         let pattern = known.map(|zone| Arc::clone(&zone.pattern));
-        prism_interior::factor(&bodies, zone, side, (planes, ends), pattern)
+        prism_interior::factor(&bodies, zone, side, planes, ends, pattern)
     }
 }
 
@@ -115,7 +119,8 @@ impl ExtrudedOperators {
 /// [`OperatorError`] if an element is inverted or a body is not held.
 pub fn condense_extruded(
     models: &[Model],
-    (planes, ends): (&NodePlanes, Ends),
+    planes: &NodePlanes,
+    ends: Ends,
     earlier: Option<(&[Model], Sides<Vec<PrismZone>>)>,
     threads: usize,
 ) -> Result<ExtrudedOperators, OperatorError> {
@@ -142,7 +147,7 @@ pub fn condense_extruded(
             .unwrap_or_default();
         let condense = |zone: usize| {
             let pattern = patterns.get(zone).cloned();
-            condense_zone(&bodies, zone, side, (planes, ends), pattern)
+            condense_zone(&bodies, zone, side, planes, ends, pattern)
         };
         (0..bodies[0].zones.len()).map(condense).collect()
     });
@@ -165,10 +170,11 @@ fn condense_zone(
     bodies: &[&BodyModel],
     zone: usize,
     side: Side,
-    (planes, ends): (&NodePlanes, Ends),
+    planes: &NodePlanes,
+    ends: Ends,
     pattern: Option<Arc<CholeskyPattern>>,
 ) -> Result<PrismZone, OperatorError> {
-    let interior = prism_interior::factor(bodies, zone, side, (planes, ends), pattern)?;
+    let interior = prism_interior::factor(bodies, zone, side, planes, ends, pattern)?;
     let PrismInterior {
         numbering,
         factor,

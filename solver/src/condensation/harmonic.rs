@@ -44,10 +44,10 @@ pub fn harmonic_compliances(
     // Waves under the same far face share the numbering, the load and the pattern.
     for same in waves.chunk_by(|one, next| one.1 == next.1) {
         let unknown = numbered(zone, same[0].1);
-        let load = load(zone, (&unknown, side), half_width);
+        let load = load(zone, &unknown, side, half_width);
         let mut known: Option<Arc<CholeskyPattern>> = None;
         for (waves, _) in same {
-            let matrix = assemble(zone, (&unknown, load.len()), *waves)
+            let matrix = assemble(zone, &unknown, load.len(), *waves)
                 .map_err(|element| OperatorError::Inverted { body, element })?;
             let failed = |source| OperatorError::Factor { body, source };
             let pattern = if let Some(pattern) = known.take() {
@@ -87,20 +87,21 @@ fn numbered(zone: &ZoneModel, far: FarFace) -> Vec<[usize; 3]> {
 /// Assembles the stiffness of so many unknowns; the error is the number of an inverted element.
 fn assemble(
     zone: &ZoneModel,
-    (unknown, order): (&[[usize; 3]], usize),
+    unknown: &[[usize; 3]],
+    order: usize,
     waves: Waves,
 ) -> Result<LowerTriangle, usize> {
     let nodes = zone.mesh.coordinates();
-    let material = (zone.lame, zone.b_bar);
+    let (lame, b_bar) = (zone.lame, zone.b_bar);
     let mut entries = Vec::new();
     for (element, cell) in zone.mesh.cells().iter().enumerate() {
         match cell {
             Cell::Quad(n) => {
-                let k = harmonic_stiffness::<Quad4, 4>(&n.map(|n| nodes[n]), material, waves);
+                let k = harmonic_stiffness::<Quad4, 4>(&n.map(|n| nodes[n]), lame, b_bar, waves);
                 scatter(&mut entries, unknown, n, &k.ok_or(element)?);
             }
             Cell::Tri(n) => {
-                let k = harmonic_stiffness::<Tri3, 3>(&n.map(|n| nodes[n]), material, waves);
+                let k = harmonic_stiffness::<Tri3, 3>(&n.map(|n| nodes[n]), lame, b_bar, waves);
                 scatter(&mut entries, unknown, n, &k.ok_or(element)?);
             }
         }
@@ -109,7 +110,7 @@ fn assemble(
 }
 
 /// Nodal forces into the body of Hertz' pressure on its surface, whose resultant is 1; that of one node where none other is in the contact.
-fn load(zone: &ZoneModel, (unknown, side): (&[[usize; 3]], Side), half_width: f64) -> Vec<f64> {
+fn load(zone: &ZoneModel, unknown: &[[usize; 3]], side: Side, half_width: f64) -> Vec<f64> {
     let mesh = &zone.mesh;
     let x = mesh.x();
     let pressure = |x: f64| (1.0 - (x / half_width).powi(2)).max(0.0).sqrt();

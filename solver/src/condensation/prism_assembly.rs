@@ -145,7 +145,8 @@ fn held(mesh: &PrismMesh<'_>, support: Support, ends: Ends) -> Vec<[usize; 3]> {
 pub(super) fn assemble(
     mesh: &PrismMesh<'_>,
     numbering: &PrismNumbering,
-    (lame, b_bar): (Lame, bool),
+    lame: Lame,
+    b_bar: bool,
 ) -> Result<LowerTriangle, usize> {
     let prisms = mesh.prisms();
     let mut matrix = pattern(&prisms, numbering);

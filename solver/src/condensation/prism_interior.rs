@@ -28,7 +28,8 @@ pub(super) fn factor(
     bodies: &[&BodyModel],
     zone: usize,
     side: Side,
-    (planes, ends): (&NodePlanes, Ends),
+    planes: &NodePlanes,
+    ends: Ends,
     pattern: Option<Arc<CholeskyPattern>>,
 ) -> Result<PrismInterior, OperatorError> {
     let body = side.name();
@@ -37,8 +38,8 @@ pub(super) fn factor(
     let mesh = PrismMesh::new(sections, planes);
     let support = first_section.support;
     let numbering = PrismNumbering::new(&mesh, first_section.zone.contact, support, ends);
-    let law = (first_section.lame, first_section.b_bar);
-    let matrix = assemble(&mesh, &numbering, law)
+    let (lame, b_bar) = (first_section.lame, first_section.b_bar);
+    let matrix = assemble(&mesh, &numbering, lame, b_bar)
         .map_err(|element| OperatorError::Inverted { body, element })?;
     let factor_error = |source| OperatorError::Factor { body, source };
     let pattern = match pattern {

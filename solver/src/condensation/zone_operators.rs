@@ -46,13 +46,15 @@ impl ZoneOperators {
     /// than linearly with their number.
     pub fn add_displacements(
         &self,
-        (from, forces): (&Range<usize>, &[f64]),
-        (of, displacements): (&Range<usize>, &mut [f64]),
+        from: &Range<usize>,
+        forces: &[f64],
+        of: &Range<usize>,
+        displacements: &mut [f64],
     ) {
         let compressed = self.compressed.get_or_init(|| self.compliance.compressed());
         let unknowns =
             |nodes: &Range<usize>| 2 * (nodes.start - self.first)..2 * (nodes.end - self.first);
-        compressed.add_product((&unknowns(from), forces), (&unknowns(of), displacements));
+        compressed.add_product(&unknowns(from), forces, &unknowns(of), displacements);
     }
 
     /// Displacement of surface unknown `row` = 2 i + d per force at unknown `column` = 2 j + e, mm per N/mm.

@@ -31,7 +31,8 @@ type Strains = SMatrix<f64, 6, 3>;
 /// reaches over the axis of the ring.
 pub fn harmonic_stiffness<E: Element<N, 2>, const N: usize>(
     nodes: &[[f64; 2]; N],
-    (lame, b_bar): (Lame, bool),
+    lame: Lame,
+    b_bar: bool,
     waves: Waves,
 ) -> Option<Stiffness<N, 3>> {
     let mut k = [[Matrix3::zeros(); N]; N];
@@ -48,8 +49,9 @@ pub fn harmonic_stiffness<E: Element<N, 2>, const N: usize>(
         };
         let dv = det * weight * stretch;
         volume += dv;
-        let local = (curvature, waves.per_mm / stretch);
-        let strains: [Strains; N] = std::array::from_fn(|a| strains(shape[a], gradients[a], local));
+        let per_mm = waves.per_mm / stretch;
+        let strains: [Strains; N] =
+            std::array::from_fn(|a| strains(shape[a], gradients[a], curvature, per_mm));
         let dilatation = strains.map(|b| dilatation(&b));
         let lambda = if b_bar { 0.0 } else { lame.lambda };
         for a in 0..N {
@@ -71,7 +73,7 @@ pub fn harmonic_stiffness<E: Element<N, 2>, const N: usize>(
 }
 
 /// Strains per displacement of a node with a shape function and its gradient, where the line has a curvature and waves per mm.
-fn strains(shape: f64, [dx, dy]: [f64; 2], (curvature, waves): (f64, f64)) -> Strains {
+fn strains(shape: f64, [dx, dy]: [f64; 2], curvature: f64, waves: f64) -> Strains {
     let (c, m) = (curvature * shape, waves * shape);
     let rows = [
         [dx, 0.0, 0.0],
@@ -119,10 +121,11 @@ mod tests {
     /// Largest nodal force under displacements of (U, V, W) at each node, over the largest entry of the stiffness.
     fn force<E: Element<N, 2>, const N: usize>(
         nodes: &[[f64; 2]; N],
-        (waves, b_bar): (Waves, bool),
+        waves: Waves,
+        b_bar: bool,
         displacement: impl Fn([f64; 2]) -> [f64; 3],
     ) -> f64 {
-        let k = harmonic_stiffness::<E, N>(nodes, (lame(), b_bar), waves);
+        let k = harmonic_stiffness::<E, N>(nodes, lame(), b_bar, waves);
         let k = k.expect("the element is not inverted");
         let u = nodes.map(|node| SVector::from(displacement(node)));
         let forces = k.map(|row| {
@@ -146,15 +149,15 @@ mod tests {
     fn rigid_motions_of_a_ring_need_no_force() {
         for b_bar in [false, true] {
             let forces = [
-                force::<Quad4, 4>(&QUAD, (ring(0.0), b_bar), |_| [0.0, 1.0, 0.0]),
-                force::<Quad4, 4>(&QUAD, (ring(0.0), b_bar), |[x, _]| [0.0, 0.0, RADIUS + x]),
-                force::<Quad4, 4>(&QUAD, (ring(1.0), b_bar), |_| [1.0, 0.0, -1.0]),
-                force::<Quad4, 4>(&QUAD, (ring(1.0), b_bar), |[x, y]| [-y, RADIUS + x, y]),
-                force::<Tri3, 3>(&TRIANGLE, (ring(1.0), b_bar), |[x, y]| [-y, RADIUS + x, y]),
+                force::<Quad4, 4>(&QUAD, ring(0.0), b_bar, |_| [0.0, 1.0, 0.0]),
+                force::<Quad4, 4>(&QUAD, ring(0.0), b_bar, |[x, _]| [0.0, 0.0, RADIUS + x]),
+                force::<Quad4, 4>(&QUAD, ring(1.0), b_bar, |_| [1.0, 0.0, -1.0]),
+                force::<Quad4, 4>(&QUAD, ring(1.0), b_bar, |[x, y]| [-y, RADIUS + x, y]),
+                force::<Tri3, 3>(&TRIANGLE, ring(1.0), b_bar, |[x, y]| [-y, RADIUS + x, y]),
             ];
             assert!(forces.iter().all(|f| *f < 1e-14), "{forces:?}");
         }
-        let bent = force::<Quad4, 4>(&QUAD, (ring(2.0), false), |[x, y]| [-y, RADIUS + x, y]);
+        let bent = force::<Quad4, 4>(&QUAD, ring(2.0), false, |[x, y]| [-y, RADIUS + x, y]);
         assert!(bent > 1e-2);
     }
 
@@ -165,7 +168,7 @@ mod tests {
             radius_mm: None,
         };
         for b_bar in [false, true] {
-            let k = harmonic_stiffness::<Quad4, 4>(&QUAD, (lame(), b_bar), none);
+            let k = harmonic_stiffness::<Quad4, 4>(&QUAD, lame(), b_bar, none);
             let k = k.expect("the element is not inverted");
             let plane = stiffness::<Quad4, 4, 2>(&QUAD, lame(), b_bar);
             let plane = plane.expect("the element is not inverted");
@@ -190,7 +193,7 @@ mod tests {
             ..straight
         };
         let of = |waves| {
-            harmonic_stiffness::<Quad4, 4>(&QUAD, (lame(), false), waves)
+            harmonic_stiffness::<Quad4, 4>(&QUAD, lame(), false, waves)
                 .expect("the element is not inverted")
         };
         let (straight, wide) = (of(straight), of(wide));
@@ -204,6 +207,6 @@ mod tests {
             per_mm: 1.0,
             radius_mm: Some(0.01),
         };
-        assert!(harmonic_stiffness::<Quad4, 4>(&QUAD, (lame(), false), over_the_axis).is_none());
+        assert!(harmonic_stiffness::<Quad4, 4>(&QUAD, lame(), false, over_the_axis).is_none());
     }
 }

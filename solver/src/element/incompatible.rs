@@ -29,7 +29,7 @@ pub fn amplitudes(
     b_bar: bool,
     displacement: &[[f64; 2]; 4],
 ) -> Option<[[f64; 2]; 2]> {
-    amplitudes_of::<Quad4, 4, 2, 8, 4>(nodes, (lame, b_bar), displacement)
+    amplitudes_of::<Quad4, 4, 2, 8, 4>(nodes, lame, b_bar, displacement)
 }
 
 /// Amplitudes a_1, a_2 and a_3 of the modes of a hexahedron under nodal displacements, mm; `None` if the element is inverted.
@@ -39,7 +39,7 @@ pub fn hex_amplitudes(
     b_bar: bool,
     displacement: &[[f64; 3]; 8],
 ) -> Option<[[f64; 3]; 3]> {
-    amplitudes_of::<Hex8, 8, 3, 24, 9>(nodes, (lame, b_bar), displacement)
+    amplitudes_of::<Hex8, 8, 3, 24, 9>(nodes, lame, b_bar, displacement)
 }
 
 /// a = -K_aa^-1 K_au u of an element of `U` displacements with `A` amplitudes of modes.
@@ -51,7 +51,8 @@ fn amplitudes_of<
     const A: usize,
 >(
     nodes: &[[f64; D]; N],
-    (lame, b_bar): (Lame, bool),
+    lame: Lame,
+    b_bar: bool,
     displacement: &[[f64; D]; N],
 ) -> Option<[[f64; D]; D]> {
     let (modes, coupling) = integrate::<E, N, D, U, A>(nodes, lame, b_bar)?;

@@ -36,7 +36,8 @@ impl Bodies {
         Ok(Self {
             operators: condense_extruded(
                 &models,
-                (&planes, scene.ends),
+                &planes,
+                scene.ends,
                 None,
                 scene.section.threads,
             )?,
@@ -100,7 +101,7 @@ impl Bodies {
         check(&self.scene, &models, &self.planes)?;
         let earlier = (&self.models[..], std::mem::take(&mut self.operators.zones));
         let (ends, threads) = (self.scene.ends, self.scene.section.threads);
-        self.operators = condense_extruded(&models, (&self.planes, ends), Some(earlier), threads)?;
+        self.operators = condense_extruded(&models, &self.planes, ends, Some(earlier), threads)?;
         self.models = models;
         self.built.clone_from(&common.built);
         self.widenings = common.widenings;

@@ -129,15 +129,17 @@ impl<'a> Placed<'a> {
                 .zone_number(&contact.loaded(side))
                 .unwrap_or_default()
         });
-        let along = slides.map_or(0.0, |shape| slip_sign((shape, section.at), position));
+        let along = slides.map_or(0.0, |shape| slip_sign(shape, section.at, position));
         Self {
             section,
             contact,
             zone,
             carried: carried(
-                (&section.condensed.operators, &section.model.interface),
+                &section.condensed.operators,
+                &section.model.interface,
                 section.depth,
-                (contact, along),
+                contact,
+                along,
             ),
         }
     }
@@ -170,7 +172,7 @@ impl<'a> Placed<'a> {
             displacement_mm,
             mut stress,
             ..
-        } = recover(model, condensed, (side, number), &force, load)?;
+        } = recover(model, condensed, side, number, &force, load)?;
         let along = self.along(side, factored)?;
         for (stress, [xz, yz]) in stress
             .iter_mut()

@@ -69,10 +69,10 @@ pub(crate) fn extruded(bodies: &ExtrudedSections<'_>) -> Result<Vec<LineFields>,
 impl ExtrudedSections<'_> {
     /// Surface fields of the contact nodes of both bodies in each plane; nothing slips along the width.
     fn carried(&self, contacts: &[ContactState]) -> Vec<Sides<Vec<SurfaceFields>>> {
-        let operators = (&self.operators.sections, &self.models[0].interface);
+        let (operators, interface) = (&self.operators.sections, &self.models[0].interface);
         let planes = contacts.iter().zip(&self.depths);
         planes
-            .map(|(contact, depth)| carried(operators, depth, (contact, 0.0)))
+            .map(|(contact, depth)| carried(operators, interface, depth, contact, 0.0))
             .collect()
     }
 
@@ -99,7 +99,7 @@ impl ExtrudedSections<'_> {
             if placed.is_empty() {
                 continue;
             }
-            let body = InteriorOfZone::of(self, (side, zone))?;
+            let body = InteriorOfZone::of(self, side, zone)?;
             for number in placed {
                 let contacts = self.contacts[number].1;
                 fields.push((number, body.swept(contacts, &carried[number])?));
@@ -125,10 +125,11 @@ struct InteriorOfZone<'a> {
 impl<'a> InteriorOfZone<'a> {
     fn of(
         bodies: &'a ExtrudedSections<'a>,
-        (side, zone): (Side, usize),
+        side: Side,
+        zone: usize,
     ) -> Result<Self, OperatorError> {
-        let ends = (bodies.planes, bodies.shape.ends);
-        let interior = (bodies.operators).interior(bodies.models, ends, (side, zone))?;
+        let (planes, ends) = (bodies.planes, bodies.shape.ends);
+        let interior = (bodies.operators).interior(bodies.models, planes, ends, side, zone)?;
         Ok(Self {
             bodies,
             side,
@@ -215,7 +216,7 @@ impl<'a> InteriorOfZone<'a> {
         let sections = 0..contacts.len();
         let meshes = sections.map(|plane| &self.zone(plane).mesh);
         let mesh = PrismMesh::new(meshes.collect(), self.bodies.planes);
-        let stress = prisms::stress(&mesh, (zone.lame, zone.b_bar), &displacement);
+        let stress = prisms::stress(&mesh, zone.lame, zone.b_bar, &displacement);
         (displacement, stress)
     }
 }

@@ -10,11 +10,7 @@ use crate::mesh::{Prism, PrismMesh};
 type Modes = ([[f64; 3]; 3], [[f64; 3]; 3]);
 
 /// Stresses at all nodes of a mesh, section by section, of displacements u there, mm.
-pub(super) fn stress(
-    mesh: &PrismMesh<'_>,
-    (lame, b_bar): (Lame, bool),
-    u: &[[f64; 3]],
-) -> Vec<Stress> {
+pub(super) fn stress(mesh: &PrismMesh<'_>, lame: Lame, b_bar: bool, u: &[[f64; 3]]) -> Vec<Stress> {
     let nodes = mesh.coordinates();
     let mut sums = vec![(Stress::default(), 0.0); nodes.len()];
     for prism in mesh.prisms() {
@@ -23,7 +19,7 @@ pub(super) fn stress(
                 let (places, u) = (n.map(|n| nodes[n]), n.map(|n| u[n]));
                 let amplitudes = incompatible::hex_amplitudes(&places, lame, b_bar, &u);
                 let amplitudes = amplitudes.unwrap_or_default();
-                add::<Hex8, 8>(&mut sums, n, (&places, &u), lame, |corner, det| {
+                add::<Hex8, 8>(&mut sums, n, &places, &u, lame, |corner, det| {
                     let gradients =
                         incompatible::mode_gradients::<Hex8, 8, 3>(&places, corner, det)?;
                     Some((amplitudes, gradients))
@@ -31,7 +27,7 @@ pub(super) fn stress(
             }
             Prism::Wedge(n) => {
                 let (places, u) = (n.map(|n| nodes[n]), n.map(|n| u[n]));
-                add::<Wedge6, 6>(&mut sums, n, (&places, &u), lame, |_, _| None);
+                add::<Wedge6, 6>(&mut sums, n, &places, &u, lame, |_, _| None);
             }
         }
     }
@@ -51,7 +47,8 @@ pub(super) fn stress(
 fn add<E: Element<N, 3>, const N: usize>(
     sums: &mut [(Stress, f64)],
     prism: &[usize; N],
-    (places, u): (&[[f64; 3]; N], &[[f64; 3]; N]),
+    places: &[[f64; 3]; N],
+    u: &[[f64; 3]; N],
     lame: Lame,
     modes: impl Fn([f64; 3], f64) -> Option<Modes>,
 ) {
@@ -115,7 +112,7 @@ mod tests {
         let expected = |i: usize, j: usize| {
             2.0 * lame.mu * strain(i, j) + if i == j { volumetric } else { 0.0 }
         };
-        for s in stress(&prisms, (lame, false), &u) {
+        for s in stress(&prisms, lame, false, &u) {
             for (found, i, j) in [
                 (s.xx, 0, 0),
                 (s.yy, 1, 1),

@@ -41,7 +41,7 @@ impl SurfaceNodes {
 }
 
 /// Sign of the slider's slip along the line, to larger angles: it moves to the right, or turns to larger angles, but for its way to the left.
-pub(super) fn slip_sign((shape, at): (LineShape, Along), position: Position) -> f64 {
+pub(super) fn slip_sign(shape: LineShape, at: Along, position: Position) -> f64 {
     let to_the_right = match position {
         Position::Neutral | Position::Rightmost => 1.0,
         Position::Leftmost => -1.0,
@@ -64,9 +64,11 @@ pub(super) fn slip_sign((shape, at): (LineShape, Along), position: Position) -> 
 
 /// Wear and tractions at the contact nodes of both bodies. Those of the slave are known; the master's are interpolated between them.
 pub(super) fn carried(
-    (operators, interface): (&Operators, &Interface),
+    operators: &Operators,
+    interface: &Interface,
     depth: &Sides<Vec<f64>>,
-    (contact, slip_along): (&ContactState, f64),
+    contact: &ContactState,
+    slip_along: f64,
 ) -> Sides<Vec<SurfaceFields>> {
     // Places on the receptacle.
     let x = Sides::from_fn(|side| {

@@ -39,8 +39,10 @@ impl CrossApproximation {
     pub(super) fn approximate(
         &mut self,
         entries: &mut impl Entries,
-        (rows, columns): (&Range<usize>, &Range<usize>),
-        (tolerance, compared): (f64, bool),
+        rows: &Range<usize>,
+        columns: &Range<usize>,
+        tolerance: f64,
+        compared: bool,
     ) {
         self.u.clear();
         self.v.clear();
@@ -60,7 +62,7 @@ impl CrossApproximation {
             CHECKED_ROWS.min(rows.len())
         };
         for k in 0..looked_at {
-            self.add_crosses(entries, (rows, columns), nearest(k), tolerance);
+            self.add_crosses(entries, rows, columns, nearest(k), tolerance);
         }
     }
 
@@ -68,7 +70,8 @@ impl CrossApproximation {
     fn add_crosses(
         &mut self,
         entries: &mut impl Entries,
-        (rows, columns): (&Range<usize>, &Range<usize>),
+        rows: &Range<usize>,
+        columns: &Range<usize>,
         first: usize,
         tolerance: f64,
     ) {
@@ -80,7 +83,7 @@ impl CrossApproximation {
             }
             self.row.resize(columns.len(), 0.0);
             entries.row(rows.start + i, columns.clone(), &mut self.row);
-            subtract((&self.v, &self.u), i, &mut self.row);
+            subtract(&self.v, &self.u, i, &mut self.row);
             let j = largest_of(self.row.iter().map(|entry| entry.abs()));
             let pivot = self.row[j];
             // A row without a part that counts has no column that would show more.
@@ -90,7 +93,7 @@ impl CrossApproximation {
             }
             self.column.resize(rows.len(), 0.0);
             entries.column(columns.start + j, rows.clone(), &mut self.column);
-            subtract((&self.u, &self.v), j, &mut self.column);
+            subtract(&self.u, &self.v, j, &mut self.column);
             let size = row_norm / pivot.abs() * norm(&self.column);
             self.v.extend(self.row.iter().map(|entry| entry / pivot));
             self.u.extend_from_slice(&self.column);
@@ -115,7 +118,7 @@ impl CrossApproximation {
 }
 
 /// Subtracts from a row or column what the crosses have of it: `along` holds their factors along it, `across` those across.
-fn subtract((along, across): (&[f64], &[f64]), at: usize, values: &mut [f64]) {
+fn subtract(along: &[f64], across: &[f64], at: usize, values: &mut [f64]) {
     let crosses = along.len() / values.len();
     let stride = across.len().checked_div(crosses).unwrap_or(0);
     vectorized(

@@ -92,9 +92,10 @@ impl Hodlr {
                 let columns = self.shape.cluster(level, number ^ 1);
                 let mirrored = (number % 2 == 1 && to.symmetric).then(|| self.mirrored());
                 let block = mirrored.unwrap_or_else(|| {
-                    let to = (to.tolerance, to.compared);
-                    self.cross.approximate(entries, (&rows, &columns), to);
-                    self.push_block((&rows, &columns), added)
+                    let (tolerance, compared) = (to.tolerance, to.compared);
+                    self.cross
+                        .approximate(entries, &rows, &columns, tolerance, compared);
+                    self.push_block(&rows, &columns, added)
                 });
                 self.shape.blocks.push(block);
             }
@@ -112,7 +113,8 @@ impl Hodlr {
     /// Stores the factors of the approximated block, and the added entries in it: a rank for each of their rows.
     fn push_block(
         &mut self,
-        (rows, columns): (&Range<usize>, &Range<usize>),
+        rows: &Range<usize>,
+        columns: &Range<usize>,
         added: Triplets<'_>,
     ) -> LowRank {
         let mut beside: Vec<(usize, usize, f64)> = within(added, columns)
@@ -167,8 +169,10 @@ impl Hodlr {
     /// Adds to the rows of a range the product with values at a range of columns.
     pub fn add_product(
         &self,
-        (columns, values): (&Range<usize>, &[f64]),
-        (rows, sum): (&Range<usize>, &mut [f64]),
+        columns: &Range<usize>,
+        values: &[f64],
+        rows: &Range<usize>,
+        sum: &mut [f64],
     ) {
         vectorized(
             #[inline(always)]
@@ -176,12 +180,12 @@ impl Hodlr {
                 let mut begin = 0;
                 for number in 0..1 << self.shape.levels {
                     let own = self.shape.cluster(self.shape.levels, number);
-                    self.add_leaf((own.clone(), begin), (columns, values), (rows, sum));
+                    self.add_leaf(&own, begin, columns, values, rows, sum);
                     begin += own.len() * own.len();
                 }
                 for level in 1..=self.shape.levels {
                     for number in 0..1 << level {
-                        self.add_block((level, number), (columns, values), (rows, sum));
+                        self.add_block(level, number, columns, values, rows, sum);
                     }
                 }
             },
@@ -192,11 +196,14 @@ impl Hodlr {
     #[inline(always)]
     fn add_leaf(
         &self,
-        (own, begin): (Range<usize>, usize),
-        (columns, values): (&Range<usize>, &[f64]),
-        (rows, sum): (&Range<usize>, &mut [f64]),
+        own: &Range<usize>,
+        begin: usize,
+        columns: &Range<usize>,
+        values: &[f64],
+        rows: &Range<usize>,
+        sum: &mut [f64],
     ) {
-        let (to, from) = (common(&own, rows), common(&own, columns));
+        let (to, from) = (common(own, rows), common(own, columns));
         if to.is_empty() {
             return;
         }
@@ -212,9 +219,12 @@ impl Hodlr {
     #[inline(always)]
     fn add_block(
         &self,
-        (level, number): (u32, usize),
-        (columns, values): (&Range<usize>, &[f64]),
-        (rows, sum): (&Range<usize>, &mut [f64]),
+        level: u32,
+        number: usize,
+        columns: &Range<usize>,
+        values: &[f64],
+        rows: &Range<usize>,
+        sum: &mut [f64],
     ) {
         let block = self.shape.block(level, number);
         let own = self.shape.cluster(level, number);

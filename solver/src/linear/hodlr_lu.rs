@@ -34,11 +34,7 @@ struct Pair<'a> {
 
 impl<'a> Pair<'a> {
     /// From the factors of its level and those below, which begin at `begin` among all.
-    fn of(
-        shape: &Shape,
-        (level, pair): (u32, usize),
-        (factors, begin): (&'a [f64], usize),
-    ) -> Self {
+    fn of(shape: &Shape, level: u32, pair: usize, factors: &'a [f64], begin: usize) -> Self {
         let siblings = [2 * pair, 2 * pair + 1];
         let [a, b] = siblings.map(|j| shape.cluster(level, j).len());
         let [of_a, of_b] = siblings.map(|j| shape.block(level, j));
@@ -73,8 +69,10 @@ impl<'a> Pair<'a> {
     /// Overwrites D^-1 f of both clusters with the solution.
     fn reduce(
         &self,
-        (lu, z): (&mut BlockedLu, &mut Vec<f64>),
-        (factors, exchanges): (MatRef<'_, f64>, &Exchanges),
+        lu: &mut BlockedLu,
+        z: &mut Vec<f64>,
+        factors: MatRef<'_, f64>,
+        exchanges: &Exchanges,
         target: MatMut<'_, f64>,
     ) {
         let (order, columns, first) = (self.order(), target.ncols(), self.y_b.ncols());
@@ -146,7 +144,7 @@ impl HodlrLu {
             begin += n * n;
             let mut leaf = MatMut::from_column_major_slice_mut(leaf, n, n);
             lu.factor(leaf.rb_mut(), exchanges);
-            for_each_ancestor(shape, (shape.levels, number), factors, |u| {
+            for_each_ancestor(shape, shape.levels, number, factors, |u| {
                 lu.solve(leaf.rb(), exchanges, u);
             });
             let rhs = rhs.rb_mut().subrows_mut(rows.start, n);
@@ -160,7 +158,7 @@ impl HodlrLu {
             let start = level_starts[level as usize - 1];
             let (above, own) = factors.split_at_mut(start);
             for (number, exchanges) in (0..1 << (level - 1)).zip(&mut next) {
-                let pair = Pair::of(shape, (level, number), (own, start));
+                let pair = Pair::of(shape, level, number, own, start);
                 let (order, at) = (pair.order(), ranks.len());
                 rank_starts.push(at);
                 ranks.resize(at + order * order, 0.0);
@@ -169,12 +167,12 @@ impl HodlrLu {
                 pair.assemble(system.rb_mut());
                 lu.factor(system.rb_mut(), exchanges);
                 let system = system.rb();
-                for_each_ancestor(shape, (level - 1, number), above, |u| {
-                    pair.reduce((lu, z), (system, exchanges), u);
+                for_each_ancestor(shape, level - 1, number, above, |u| {
+                    pair.reduce(lu, z, system, exchanges, u);
                 });
                 let rows = shape.cluster(level - 1, number);
                 let rhs = rhs.rb_mut().subrows_mut(rows.start, rows.len());
-                pair.reduce((lu, z), (system, exchanges), rhs);
+                pair.reduce(lu, z, system, exchanges, rhs);
             }
         }
     }
@@ -208,13 +206,13 @@ impl HodlrLu {
         let mut systems = rank_starts.iter().zip(&*rank_exchanges);
         for level in (1..=shape.levels).rev() {
             for (number, (at, exchanges)) in (0..1 << (level - 1)).zip(&mut systems) {
-                let pair = Pair::of(shape, (level, number), (factors, 0));
+                let pair = Pair::of(shape, level, number, factors, 0);
                 let order = pair.order();
                 let system = &ranks[*at..at + order * order];
                 let system = MatRef::from_column_major_slice(system, order, order);
                 let rows = shape.cluster(level - 1, number);
                 let rhs = rhs.rb_mut().subrows_mut(rows.start, rows.len());
-                pair.reduce((lu, z), (system, exchanges), rhs);
+                pair.reduce(lu, z, system, exchanges, rhs);
             }
         }
     }
@@ -223,7 +221,8 @@ impl HodlrLu {
 /// Gives the rows that a cluster has of U of the blocks of all clusters that hold it, itself included.
 fn for_each_ancestor(
     shape: &Shape,
-    (level, number): (u32, usize),
+    level: u32,
+    number: usize,
     factors: &mut [f64],
     mut apply: impl FnMut(MatMut<'_, f64>),
 ) {

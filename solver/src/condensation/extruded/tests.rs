@@ -12,7 +12,7 @@ fn model_of(scene: &Scene) -> Model {
 
 fn extruded(model: &Model, planes: &NodePlanes, ends: Ends) -> ExtrudedOperators {
     let models = vec![model.clone(); planes.count()];
-    condense_extruded(&models, (planes, ends), None, 1).expect("the scene can be condensed")
+    condense_extruded(&models, planes, ends, None, 1).expect("the scene can be condensed")
 }
 
 fn coarse() -> Scene {
@@ -24,7 +24,7 @@ fn coarse() -> Scene {
 /// Displacement `row` = 2 i + d of a section under the line force `column` = 2 j + e of another.
 fn entry(zone: &PrismZone, (k, row): (usize, usize), (l, column): (usize, usize)) -> f64 {
     let node = row / 2;
-    let columns = zone.to_force_at((l, column / 2), (k, &(node..node + 1)));
+    let columns = zone.to_force_at(l, column / 2, k, &(node..node + 1));
     columns[column % 2][row % 2]
 }
 
@@ -147,7 +147,7 @@ fn sections_have_surfaces_of_their_own() {
     let planes = NodePlanes::new(0.01, 2, 1.0);
     let model = model_of(&coarse());
     let before = vec![model.clone(); 2];
-    let first = condense_extruded(&before, (&planes, Ends::Free), None, 1).expect("unworn");
+    let first = condense_extruded(&before, &planes, Ends::Free, None, 1).expect("unworn");
     let depth = Sides {
         slider: vec![0.0; model.bodies.slider.contact_x().len()],
         receptacle: vec![0.03; model.bodies.receptacle.contact_x().len()],
@@ -166,12 +166,13 @@ fn sections_have_surfaces_of_their_own() {
     let slider = entry(&first.zones.slider[0], (0, 1), (1, 3));
     let then = condense_extruded(
         &models,
-        (&planes, Ends::Free),
+        &planes,
+        Ends::Free,
         Some((&before, first.zones)),
         2,
     )
     .expect("the worn body can be condensed");
-    let anew = condense_extruded(&models, (&planes, Ends::Free), None, 1).expect("likewise");
+    let anew = condense_extruded(&models, &planes, Ends::Free, None, 1).expect("likewise");
     let stiffer = [0, 1].map(|k| 1.0 - own(&then, k) / unworn[k]);
     assert!(
         stiffer[0] > 0.01 && stiffer[1].abs() < 0.5 * stiffer[0],

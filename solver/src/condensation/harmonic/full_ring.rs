@@ -62,7 +62,7 @@ fn body(side: Side, far: FarFace) -> Body {
             .map(|i| 0.5 * (surface[i + 1] - surface[i - 1]))
             .collect(),
         compliance: compliance
-            .map(|waves| responses((zone, side), &near, waves))
+            .map(|(waves, far)| responses(zone, side, &near, waves, far))
             .collect(),
         lifts: found.iter().map(|c| c - found[0]).collect(),
     }
@@ -70,14 +70,16 @@ fn body(side: Side, far: FarFace) -> Body {
 
 /// Depths by which nodes move into the body under forces of 1 at each of them.
 fn responses(
-    (zone, side): (&ZoneModel, Side),
+    zone: &ZoneModel,
+    side: Side,
     nodes: &[usize],
-    (waves, far): (Waves, FarFace),
+    waves: Waves,
+    far: FarFace,
 ) -> SquareMatrix {
     let unknown = numbered(zone, far);
     let order = unknown.iter().flatten().filter(|slot| **slot != HELD);
     let order = order.count();
-    let matrix = assemble(zone, (&unknown, order), waves).expect("no element is inverted");
+    let matrix = assemble(zone, &unknown, order, waves).expect("no element is inverted");
     let pattern = CholeskyPattern::new(matrix.starts, matrix.rows, 0).expect("a pattern");
     let factor = Arc::new(pattern).factor(&matrix.values);
     let factor = factor.expect("the body is held");
@@ -109,7 +111,7 @@ fn cos(n: usize, place: usize) -> f64 {
 }
 
 /// Part of the wave n at a place under a force at another one.
-fn part(n: usize, (at, from): (usize, usize)) -> f64 {
+fn part(n: usize, at: usize, from: usize) -> f64 {
     let all = if n == 0 || n == PLACES - 1 { 1.0 } else { 2.0 };
     all * weight(from) / real(PLACES - 1) * cos(n, at) * cos(n, from)
 }
@@ -202,12 +204,12 @@ fn sections_that_know_their_lifts_are_the_whole_ring() {
         let alone = matrix(&found, section);
         let lifted = matrix(&found, |at, from, nodes| {
             let waves = found.lifts.iter().enumerate();
-            let lift = waves.map(|(n, lift)| part(n, (at, from)) * lift);
+            let lift = waves.map(|(n, lift)| part(n, at, from) * lift);
             section(at, from, nodes) + lift.sum::<f64>()
         });
         let whole = matrix(&found, |at, from, [i, k]| {
             let waves = found.compliance.iter().enumerate();
-            waves.map(|(n, c)| part(n, (at, from)) * c.get(i, k)).sum()
+            waves.map(|(n, c)| part(n, at, from) * c.get(i, k)).sum()
         });
         for (m, amplitude) in [(2, 1e-4), (4, 1e-4), (8, 2e-5)] {
             let gap = |place: usize| amplitude * cos(m, place);

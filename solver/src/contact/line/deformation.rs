@@ -70,10 +70,10 @@ impl Deformation {
         let (masters, reaction) = (&self.masters, &self.reaction[..]);
         zones
             .master
-            .add_displacements((masters, reaction), (masters, &mut self.master));
+            .add_displacements(masters, reaction, masters, &mut self.master);
         zones
             .slave
-            .add_displacements((&nodes, forces), (&nodes, &mut self.slave));
+            .add_displacements(&nodes, forces, &nodes, &mut self.slave);
     }
 
     /// By all forces of a contact.
@@ -144,7 +144,7 @@ fn add_forces(
     let (force, loaded) = (contact.force.of(side), contact.loaded(side));
     if loaded.len() >= WIDE {
         let forces = &force[2 * loaded.start..2 * loaded.end];
-        zone.add_displacements((&loaded, forces), (nodes, displacement));
+        zone.add_displacements(&loaded, forces, nodes, displacement);
         return;
     }
     for node in loaded {

@@ -56,7 +56,7 @@ fn mean_displacements(zone: &ZoneOperators, loaded: &Range<usize>, force: &[f64]
         let turned: Vec<f64> = vertical().flat_map(|f| [*f, 0.0]).collect();
         let mean = |forces: &[f64]| {
             let mut moved = vec![0.0; forces.len()];
-            zone.add_displacements((loaded, forces), (loaded, &mut moved));
+            zone.add_displacements(loaded, forces, loaded, &mut moved);
             let weighted = vertical().zip(moved.iter().step_by(2));
             weighted.map(|(weight, u)| weight * u).sum::<f64>()
         };

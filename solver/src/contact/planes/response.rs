@@ -45,15 +45,15 @@ impl Response {
                 values.clear();
                 values.resize(2 * nodes, 0.0);
             }
-            let of = (k, &(first..coupling.end));
+            let of = &(first..coupling.end);
             displace(
                 &mut self.slave,
-                zones.slave.to_force_at((plane, i), of),
+                zones.slave.to_force_at(plane, i, k, of),
                 force,
             );
             let (from, weights) = coupling.dual_row(i);
             for (to, weight) in (from..).zip(weights) {
-                let response = zones.master.to_force_at((plane, to), (k, &(begin..stop)));
+                let response = zones.master.to_force_at(plane, to, k, &(begin..stop));
                 displace(&mut self.master, response, force.map(|f| weight * f));
             }
             let (own, _) = self.slave.as_chunks::<2>();

@@ -73,7 +73,7 @@ fn products_and_solutions_are_those_of_the_matrix() {
         let x: Vec<f64> = (0..order).map(|j| 1.0 + real(j)).collect();
         let mut y = vec![0.0; order];
         let all = 0..order;
-        matrix.add_product((&all, &x), (&all, &mut y));
+        matrix.add_product(&all, &x, &all, &mut y);
         let largest = exact.iter().fold(0.0, |m: f64, y| m.max(y.abs()));
         let error = |a: &[f64], b: &[f64]| {
             a.iter()
@@ -84,10 +84,10 @@ fn products_and_solutions_are_those_of_the_matrix() {
         // A part of the rows and columns.
         let (rows, columns) = (order / 5..order / 2 + 1, order / 3..order);
         let mut part = vec![0.0; rows.len()];
-        matrix.add_product((&columns, &x[columns.clone()]), (&rows, &mut part));
+        matrix.add_product(&columns, &x[columns.clone()], &rows, &mut part);
         let mut rest = vec![0.0; rows.len()];
         let before = 0..columns.start;
-        matrix.add_product((&before, &x[before.clone()]), (&rows, &mut rest));
+        matrix.add_product(&before, &x[before.clone()], &rows, &mut rest);
         for (i, (a, b)) in rows.clone().zip(part.iter().zip(&rest)) {
             assert!((a + b - exact[i]).abs() < 1e-11 * largest, "{order} {i}");
         }
