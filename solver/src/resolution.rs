@@ -203,7 +203,7 @@ fn of_motion(scene: &Scene, hertz: f64, rates: Sides<f64>, sliding: f64) -> Size
         hertz_half_width: hertz,
         final_half_width: last,
         sticks,
-        slave: constraint_side::choose(scene, rates, gross, (element, slip, sliding)),
+        slave: constraint_side::choose(scene, rates, gross, element, slip, sliding),
         contact_element: element,
         layer_growth: 1.0 + layer_growth.at(*tolerance) / finer,
         spacing: Sides {

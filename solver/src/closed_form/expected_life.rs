@@ -138,13 +138,13 @@ impl Contact<'_> {
             Side::Slider if other_wears => self.both(dose),
             Side::Slider => self.section(&[(side, 1.0, 1.0)], dose, self.arc(depth)),
             Side::Receptacle if other_wears => self.groove(dose),
-            Side::Receptacle => self.alone(side, (depth, depth_mm)),
+            Side::Receptacle => self.alone(side, depth, depth_mm),
         }
     }
 
     /// P' s at which a receptacle whose rider does not wear has a depth at its deepest place, or at the edge of the part that a criterion
     /// is about, mm.
-    fn alone(&self, side: Side, (deepest, depth): (f64, f64)) -> Option<f64> {
+    fn alone(&self, side: Side, deepest: f64, depth: f64) -> Option<f64> {
         let (dose, arc) = (self.dose(side, deepest)?, self.arc(deepest));
         let floor = self.dose(side, depth)?;
         let inverse = self.strokes.iter().map(|Stroke { amplitude, share }| {

@@ -17,7 +17,7 @@ pub(crate) fn wear_rates(scene: &Scene, half_width: f64) -> Sides<f64> {
     let by_depth = |wear: Option<SurfaceWear>| wear.is_some_and(SurfaceWear::depends_on_depth);
     let depth = if by_depth(wear.slider) || by_depth(wear.receptacle) {
         let cycles = expected_cycles(scene, half_width);
-        worn_depth_after(scene, (half_width, &wear), cycles)
+        worn_depth_after(scene, half_width, &wear, cycles)
     } else {
         Sides::default()
     };
@@ -37,14 +37,15 @@ pub(crate) fn expected_cycles(scene: &Scene, half_width: f64) -> u64 {
         return cycles;
     }
     let at = LocalState::mean(scene.load_n_per_mm, half_width, scene.timed_motion().mean());
-    let of_section = worn_depth::expected_cycles(scene, (radius(scene), at), &scene.surface_wear());
+    let of_section = worn_depth::expected_cycles(scene, radius(scene), at, &scene.surface_wear());
     of_cap.map_or(of_section, |cycles| cycles.min(of_section))
 }
 
 /// Estimated largest worn depths after so many cycles, mm, in a contact of a half-width with this wear of both surfaces.
 pub(crate) fn worn_depth_after(
     scene: &Scene,
-    (half_width, wear): (f64, &Sides<Option<SurfaceWear>>),
+    half_width: f64,
+    wear: &Sides<Option<SurfaceWear>>,
     cycles: u64,
 ) -> Sides<f64> {
     let of_cap = WornCap::of_scene(scene).map(|cap| cap.depth_after(cycles));
@@ -52,7 +53,7 @@ pub(crate) fn worn_depth_after(
         return depth;
     }
     let at = LocalState::mean(scene.load_n_per_mm, half_width, scene.timed_motion().mean());
-    let of_section = worn_depth::after(scene, (radius(scene), at), wear, cycles);
+    let of_section = worn_depth::after(scene, radius(scene), at, wear, cycles);
     // A cap is deeper until it reaches the ends of the width.
     of_cap.map_or(of_section, |depth| {
         depth
@@ -65,7 +66,7 @@ pub(crate) fn worn_depth_after(
 pub fn worn_contact_half_length_mm(scene: &Scene) -> f64 {
     let hertz = hertz_half_width(scene);
     let cycles = expected_cycles(scene, hertz);
-    let depth = worn_depth_after(scene, (hertz, &scene.surface_wear()), cycles);
+    let depth = worn_depth_after(scene, hertz, &scene.surface_wear(), cycles);
     let arc = 2.0 * radius(scene) * depth.slider.max(depth.receptacle);
     arc.sqrt().max(hertz)
 }
@@ -83,7 +84,7 @@ pub fn crown_half_lengths_mm(scene: &Scene) -> Option<(f64, f64)> {
     let unworn = line_contact::touch_of(scene, line).length_mm;
     let hertz = hertz_half_width(scene);
     let cycles = expected_cycles(scene, hertz);
-    let depth = worn_depth_after(scene, (hertz, &scene.surface_wear()), cycles);
+    let depth = worn_depth_after(scene, hertz, &scene.surface_wear(), cycles);
     let arc = 2.0 * radius * (depth.slider + depth.receptacle);
     Some((unworn, (unworn * unworn + arc).sqrt()))
 }

@@ -23,7 +23,8 @@ pub(super) const MOST_EXPOSED: f64 = 0.95;
 /// a representative state.
 pub(crate) fn after(
     scene: &Scene,
-    (radius, at): (f64, LocalState),
+    radius: f64,
+    at: LocalState,
     wear: &Sides<Option<SurfaceWear>>,
     cycles: u64,
 ) -> Sides<f64> {
@@ -36,7 +37,7 @@ pub(crate) fn after(
                 _ => path * wear.largest_rate(height, at),
             };
             let worn = |h| path * wear.mean_rate(h, at);
-            let depth = depth(worn, (most, height), amplitude, radius);
+            let depth = depth(worn, most, height, amplitude, radius);
             depth.min(height)
         })
     };
@@ -50,7 +51,8 @@ pub(crate) fn after(
 /// Cycles until the run ends: all of them, or fewer where it stops at a criterion.
 pub(crate) fn expected_cycles(
     scene: &Scene,
-    (radius, at): (f64, LocalState),
+    radius: f64,
+    at: LocalState,
     wear: &Sides<Option<SurfaceWear>>,
 ) -> u64 {
     let path = scene.load_n_per_mm * scene.motion.distance_per_cycle_mm();
@@ -83,12 +85,7 @@ fn section(h: f64, amplitude: f64, radius: f64) -> f64 {
 }
 
 /// Depth of a groove, mm, whose section, mm^2, depends on its depth and is at most a value, or the depth at most another.
-fn depth(
-    worn: impl Fn(f64) -> f64,
-    (most, height): (f64, f64),
-    amplitude: f64,
-    radius: f64,
-) -> f64 {
+fn depth(worn: impl Fn(f64) -> f64, most: f64, height: f64, amplitude: f64, radius: f64) -> f64 {
     // Without the flat part.
     let segment = (0.75 * most / (2.0 * radius).sqrt()).powf(2.0 / 3.0);
     let (mut low, mut high) = (0.0, if most.is_finite() { segment } else { height });
@@ -112,13 +109,13 @@ mod tests {
     #[test]
     fn a_groove_holds_its_section() {
         for (amplitude, radius) in [(0.0, 0.4), (1e-3, 0.4), (0.02, 0.05), (1.0, 0.4)] {
-            let h = depth(|_| 1e-4, (1e-4, 1.0), amplitude, radius);
+            let h = depth(|_| 1e-4, 1e-4, 1.0, amplitude, radius);
             assert!(
                 (section(h, amplitude, radius) / 1e-4 - 1.0).abs() < 1e-9,
                 "{amplitude} {radius}"
             );
         }
-        assert!(depth(|_| 0.0, (0.0, 1.0), 0.02, 0.4) <= 0.0);
+        assert!(depth(|_| 0.0, 0.0, 1.0, 0.02, 0.4) <= 0.0);
     }
 
     #[test]
@@ -127,14 +124,14 @@ mod tests {
         scene.stop.clear();
         let (radius, at) = (0.0254, LocalState::default());
         let wear = scene.surface_wear();
-        assert_eq!(expected_cycles(&scene, (radius, at), &wear), scene.cycles);
-        let depth = after(&scene, (radius, at), &wear, 100).receptacle;
+        assert_eq!(expected_cycles(&scene, radius, at, &wear), scene.cycles);
+        let depth = after(&scene, radius, at, &wear, 100).receptacle;
         scene.stop = vec![Criterion::deepest(Side::Receptacle, depth)];
-        let expected = expected_cycles(&scene, (radius, at), &wear);
+        let expected = expected_cycles(&scene, radius, at, &wear);
         assert!(expected.abs_diff(100) <= 1, "{expected}");
         // The slider does not wear.
         scene.stop = vec![Criterion::deepest(Side::Slider, depth)];
-        assert_eq!(expected_cycles(&scene, (radius, at), &wear), scene.cycles);
+        assert_eq!(expected_cycles(&scene, radius, at, &wear), scene.cycles);
         // A plating of that thickness is through on half the scar later than at its deepest point.
         scene.receptacle.plating = vec![Layer {
             thickness_mm: depth,
@@ -146,7 +143,7 @@ mod tests {
                 part,
                 ..Criterion::deepest(Side::Receptacle, depth)
             }];
-            expected_cycles(&scene, (radius, at), &scene.surface_wear())
+            expected_cycles(&scene, radius, at, &scene.surface_wear())
         };
         assert!(at_part(1e-3).abs_diff(100) <= 1);
         assert!(at_part(0.5) > 120 && at_part(0.99) > at_part(0.5));

@@ -18,8 +18,8 @@ impl Integrator<'_> {
     pub(super) fn update_friction(&mut self, state: &CycleState, cycles: f64) {
         self.nodal_friction = self.friction.nodal(&state.depth);
         let from = real_cycles(state.cycle);
-        let span = (from, from + cycles);
-        self.pair.interface.friction = self.friction.between(span, &self.nodal_friction);
+        let (friction, nodal) = (&self.friction, &self.nodal_friction);
+        self.pair.interface.friction = friction.between(from, from + cycles, nodal);
     }
 
     /// Mean coefficient of friction since a number of cycles over that of the last computed cycle, -; 1 where places differ in it, whose

@@ -15,7 +15,7 @@ use crate::sides::Sides;
 
 /// Skew of the pressure over the wider tolerance of pressures, of a coefficient of friction and a radius of relative curvature, mm, at
 /// these worn depths, mm.
-pub(super) fn indicator(scene: &Scene, (friction, radius): (f64, f64), depth: Sides<f64>) -> f64 {
+pub(super) fn indicator(scene: &Scene, friction: f64, radius: f64, depth: Sides<f64>) -> f64 {
     let amplitude = scene.motion.amplitude_mm().abs();
     let half_width = conforming_half_width(radius, amplitude, depth);
     skew(scene, friction, half_width) / PRESSURE_TOLERANCES

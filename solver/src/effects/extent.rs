@@ -57,7 +57,7 @@ pub fn choose(plane: &Scene, as_point: Option<&Scene>, extent: Extent) -> (Choic
     let depth = |scene: &Scene| {
         let hertz = hertz_half_width(scene);
         let cycles = expected_cycles(scene, hertz);
-        let worn = worn_depth_after(scene, (hertz, &scene.surface_wear()), cycles);
+        let worn = worn_depth_after(scene, hertz, &scene.surface_wear(), cycles);
         worn.slider.max(worn.receptacle)
     };
     let limit = SHARE * plane.accuracy.tolerance * depth(plane);

@@ -80,8 +80,8 @@ impl<'a> Indicators<'a> {
 
     /// Estimated largest worn depths after so many cycles, mm.
     pub(super) fn worn_depth_after(&self, cycles: u64) -> Sides<f64> {
-        let state = (self.sizes.hertz_half_width, &self.wear);
-        expected_wear::worn_depth_after(&self.scene, state, cycles)
+        let half_width = self.sizes.hertz_half_width;
+        expected_wear::worn_depth_after(&self.scene, half_width, &self.wear, cycles)
     }
 
     /// Those at the end.
@@ -303,7 +303,8 @@ impl<'a> Indicators<'a> {
             .max(stress)
             .max(bending::indicator(
                 &self.scene,
-                (self.friction, self.radius),
+                self.friction,
+                self.radius,
                 depth,
             ))
     }

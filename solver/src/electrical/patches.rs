@@ -48,7 +48,7 @@ pub(super) fn patches(
         }
         let middle = 0.5 * (ends[0] + ends[1]);
         let depth = surfaces.map(|surface| interpolation::linear(surface.x, surface.depth, middle));
-        add(&mut found, metals, (share, depth));
+        add(&mut found, metals, share, depth);
     }
     found
 }
@@ -58,13 +58,13 @@ pub(super) fn patches_of_cells(depths_mm: &[Sides<f64>], metals: &Sides<Vec<Meta
     let share = 1.0 / crate::number::real(depths_mm.len());
     let mut found = Vec::new();
     for depth in depths_mm {
-        add(&mut found, metals, (share, *depth));
+        add(&mut found, metals, share, *depth);
     }
     found
 }
 
 /// Adds a part of the contact to the patch of its metals.
-fn add(found: &mut Vec<Patch>, metals: &Sides<Vec<Metal>>, (share, depth): (f64, Sides<f64>)) {
+fn add(found: &mut Vec<Patch>, metals: &Sides<Vec<Metal>>, share: f64, depth: Sides<f64>) {
     let metal = Sides::from_fn(|side| exposed(metals.of(side), *depth.of(side)));
     let known = found.iter_mut().find(|patch| patch.metal == metal);
     match known {

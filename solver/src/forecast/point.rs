@@ -70,7 +70,7 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
     let cycles = expected_cycles(scene, along);
     let wear = scene.surface_wear();
     let state = |done: u64| {
-        let depth = worn_depth_after(scene, (along, &wear), done);
+        let depth = worn_depth_after(scene, along, &wear, done);
         let grown = |half: f64, radius: f64, worn: f64| (half * half + 2.0 * radius * worn).sqrt();
         let rates = wear.zip(depth).map(|(wear, depth)| {
             wear.map_or(0.0, |wear| wear.largest_rate(depth, LocalState::default()))
@@ -92,7 +92,7 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
     let (mut done, mut worn) = (0, state(0));
     while done < cycles {
         let step = contact.step_over_indentation(worn.rates, worn.along);
-        let jump = jumps.next(&contact.accuracy, (done, cycles - done), step);
+        let jump = jumps.next(&contact.accuracy, done, cycles - done, step);
         let next = state(done + jump);
         let ratio = worn.along * worn.across / (next.along * next.across);
         jumps.update(jump, SHARE * (1.0 - ratio));

@@ -94,7 +94,8 @@ impl SurfaceWear {
     pub(crate) fn change_by_heat(
         self,
         margins: &Margins,
-        (at, rate): (LocalState, impl Fn(WearLaw) -> f64),
+        at: LocalState,
+        rate: impl Fn(WearLaw) -> f64,
         rise_k: f64,
     ) -> f64 {
         let layers = match self {

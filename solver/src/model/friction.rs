@@ -69,7 +69,7 @@ impl ContactFriction {
     }
 
     /// The mean coefficient from one number of cycles to another, -; of places that differ the largest of those of both surfaces.
-    pub(crate) fn between(&self, (from, to): (f64, f64), nodal: &Sides<Option<Vec<f64>>>) -> f64 {
+    pub(crate) fn between(&self, from: f64, to: f64, nodal: &Sides<Option<Vec<f64>>>) -> f64 {
         match self {
             Self::Uniform(table) => table.mean(from, to),
             Self::BySurface(_) => {
@@ -207,6 +207,6 @@ mod tests {
         let unworn = ContactFriction::new(&scene, &Sides::default(), true);
         assert_eq!(unworn, ContactFriction::Uniform(Table::new(&[(0.0, 0.2)])));
         let nodal = Sides::default();
-        assert!((unworn.between((5.0, 6.0), &nodal) - 0.2).abs() < 1e-15);
+        assert!((unworn.between(5.0, 6.0, &nodal) - 0.2).abs() < 1e-15);
     }
 }

@@ -40,7 +40,7 @@ impl PointIntegrator {
             sliding.slip_partly(&mut state, -scene.amplitude_mm, 0.0)?;
         }
         // Without wear there is no skew.
-        let at_neutral = sliding.unskewed(&state, (1.0, scene.force_n))?;
+        let at_neutral = sliding.unskewed(&state, 1.0, scene.force_n)?;
         let neutral = Placed::of(scene, &at_neutral, 0.0);
         let mut state = PointState {
             control: JumpControl::default(),
@@ -58,7 +58,7 @@ impl PointIntegrator {
             scene: *scene,
             sliding,
         };
-        state.last = integrator.report(&state, (0, 0.0), state.sliding.work);
+        state.last = integrator.report(&state, 0, 0.0, state.sliding.work);
         Ok((integrator, state))
     }
 
@@ -87,13 +87,13 @@ impl PointIntegrator {
         let work = state.sliding.work;
         loop {
             let remaining = until.max(state.done + 1) - state.done;
-            let cycles = (state.done, remaining);
-            let jump = state.control.next(&accuracy, cycles, self.step(state));
+            let step = self.step(state);
+            let jump = state.control.next(&accuracy, state.done, remaining, step);
             let before = state.sliding.clone();
             let error = self
                 .pass_both(state, real_cycles(jump))
                 .map_err(|error| error.at(state.done))?;
-            if let Some(shorter) = rejected(&accuracy, state.done, (jump, error)) {
+            if let Some(shorter) = rejected(&accuracy, state.done, jump, error) {
                 let work = state.sliding.work;
                 state.sliding = State { work, ..before };
                 state.control.limit(shorter);
@@ -102,7 +102,7 @@ impl PointIntegrator {
                 state.done += jump;
                 state.error_sum += real_cycles(jump) * error;
                 state.computed += 1;
-                state.last = self.report(state, (jump, error), work);
+                state.last = self.report(state, jump, error, work);
                 state.most_increments = state.most_increments.max(state.last.increments);
                 return Ok(state.last);
             }
@@ -155,8 +155,8 @@ impl PointIntegrator {
             sliding.half_pass(present, start, jump)?;
             turning[1] = Placed::of(scene, present, last);
             if self.wears_once() && self.step(state) < UNSKEWED_TO {
-                let at = (jump, state.neutral.force_n);
-                let unskewed = self.sliding.unskewed(&state.sliding, at)?;
+                let force_n = state.neutral.force_n;
+                let unskewed = self.sliding.unskewed(&state.sliding, jump, force_n)?;
                 state.neutral = Placed::of(&self.scene, &unskewed, last);
             }
         }
@@ -199,7 +199,8 @@ impl PointIntegrator {
     fn report(
         &self,
         state: &PointState,
-        (jump, jump_error): (u64, f64),
+        jump: u64,
+        jump_error: f64,
         work: (usize, usize),
     ) -> PointCycle {
         let (sliding, neutral) = (&state.sliding, &state.neutral);

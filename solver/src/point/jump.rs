@@ -53,7 +53,8 @@ impl JumpControl {
     pub(crate) fn next(
         self,
         accuracy: &PointAccuracy,
-        (done, remaining): (u64, u64),
+        done: u64,
+        remaining: u64,
         step: f64,
     ) -> u64 {
         if let Some(jump) = accuracy.cycle_jump {
@@ -112,11 +113,7 @@ pub(super) fn share_in_wear(sums: WearSums, done: u64) -> f64 {
 }
 
 /// The jump to repeat a computed cycle with, if its error is too large and its jump not given.
-pub(super) fn rejected(
-    accuracy: &PointAccuracy,
-    done: u64,
-    (jump, error): (u64, f64),
-) -> Option<u64> {
+pub(super) fn rejected(accuracy: &PointAccuracy, done: u64, jump: u64, error: f64) -> Option<u64> {
     let is_large = error > REJECTED * allowed_error(accuracy) && done > 1;
     (is_large && jump > 1 && accuracy.cycle_jump.is_none()).then(|| jump.div_ceil(CUT))
 }
@@ -137,11 +134,11 @@ mod tests {
     fn jumps_grow_while_the_wear_changes_little() {
         let accuracy = PointAccuracy::from_tolerance(0.02);
         let mut control = JumpControl::default();
-        assert_eq!(control.next(&accuracy, (0, 1_000), 1e-9), 1);
+        assert_eq!(control.next(&accuracy, 0, 1_000, 1e-9), 1);
         control.update(10, 1e-4);
-        assert_eq!(control.next(&accuracy, (500, 1_000), 1e-9), 20);
+        assert_eq!(control.next(&accuracy, 500, 1_000, 1e-9), 20);
         control.update(20, 0.03);
-        assert_eq!(control.next(&accuracy, (520, 980), 1e-9), 27);
+        assert_eq!(control.next(&accuracy, 520, 980, 1e-9), 27);
     }
 
     #[test]
@@ -168,6 +165,6 @@ mod tests {
         let accuracy = PointAccuracy::from_tolerance(0.02);
         let mut control = JumpControl::default();
         control.update(100, 1e-6);
-        assert_eq!(control.next(&accuracy, (10_000, 900), 1e-2), 40);
+        assert_eq!(control.next(&accuracy, 10_000, 900, 1e-2), 40);
     }
 }

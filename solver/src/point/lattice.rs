@@ -118,7 +118,7 @@ impl Lattice {
 
     /// Wider grids along the axes where the contact reaches the edge of the window.
     #[must_use]
-    pub(super) fn widened(self, (along, across): (bool, bool)) -> Self {
+    pub(super) fn widened(self, along: bool, across: bool) -> Self {
         let wider = |half: usize, is_wider: bool| {
             if is_wider {
                 half + half.div_ceil(3)

@@ -74,7 +74,8 @@ impl Sliding {
     pub(super) fn unskewed(
         &mut self,
         state: &State,
-        (jump, force_n): (f64, f64),
+        jump: f64,
+        force_n: f64,
     ) -> Result<State, PointError> {
         let mut state = State {
             force_n,

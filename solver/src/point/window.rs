@@ -38,7 +38,7 @@ pub(super) fn widen(state: &mut State) -> Result<(), PointError> {
     let along = has_load(pressure.rows(0, 1)) || has_load(pressure.rows(rows - 1, 1));
     let mut columns = pressure.values.chunks_exact(width);
     let across = columns.any(|row| row[0] > 0.0 || row[width - 1] > 0.0);
-    let lattice = state.lattice.widened((along, across));
+    let lattice = state.lattice.widened(along, across);
     let cells = lattice.cells().count();
     if cells > MOST_CELLS {
         return Err(PointError::Window {

@@ -12,7 +12,9 @@ pub(super) fn choose(
     scene: &Scene,
     rates: Sides<f64>,
     gross: bool,
-    (element, slip, sliding): (f64, f64, f64),
+    element: f64,
+    slip: f64,
+    sliding: f64,
 ) -> Side {
     let tuning = &scene.accuracy.tuning;
     let moduli = Sides {

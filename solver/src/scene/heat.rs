@@ -147,7 +147,7 @@ impl Scene {
         let change = |side: Side| {
             let wear = wear.of(side).as_ref();
             wear.map_or(0.0, |wear| {
-                wear.change_by_heat(margins.of(side), (at, rate), rise_k)
+                wear.change_by_heat(margins.of(side), at, rate, rise_k)
             })
         };
         change(Side::Slider).max(change(Side::Receptacle))

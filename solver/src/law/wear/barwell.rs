@@ -105,7 +105,7 @@ impl Barwell {
 /// Mean specific wear rate over the dose of an increment that begins at the depth of a state, with its derivatives.
 pub(super) fn rate(law: Barwell, at: LocalState) -> Rate {
     let (worn, end) = law.recession(at.depth, at.pressure * at.slip);
-    Rate::over_dose((at.pressure, at.slip), worn, end)
+    Rate::over_dose(at.pressure, at.slip, worn, end)
 }
 
 #[cfg(test)]

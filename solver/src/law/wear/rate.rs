@@ -53,7 +53,7 @@ impl Rate {
     }
 
     /// The mean rate over a dose p |ds| that wears a depth in mm and ends with a rate in 1/MPa.
-    pub(super) fn over_dose((pressure, slip): (f64, f64), worn: f64, end: f64) -> Self {
+    pub(super) fn over_dose(pressure: f64, slip: f64, worn: f64, end: f64) -> Self {
         let dose = pressure * slip;
         if dose <= 0.0 {
             return Self::uniform(end);
