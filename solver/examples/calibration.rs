@@ -218,10 +218,10 @@ fn varied(variation: &Variation, name: &str, value: f64) -> Scene {
 }
 
 fn print_errors(name: &str, value: f64, found: &(Summary, Recorder), exact: &(Summary, Recorder)) {
-    let wears = |side: &Side| worn(exact, *side).0.max_depth_mm > 0.0;
+    let wears = |side: &Side| worn(exact, *side).report.max_depth_mm > 0.0;
     let wearing = Side::BOTH.into_iter().filter(wears);
     let errors: Vec<_> = wearing
-        .map(|side| (side, errors(worn(found, side), worn(exact, side))))
+        .map(|side| (side, errors(&worn(found, side), &worn(exact, side))))
         .collect();
     let worse = |which: usize| {
         let of_sides = errors.iter().map(|(side, errors)| (side, errors[which]));
@@ -248,24 +248,29 @@ fn print_errors(name: &str, value: f64, found: &(Summary, Recorder), exact: &(Su
 }
 
 /// Wear of a side after the last cycle.
-fn worn((summary, run): &(Summary, Recorder), side: Side) -> (&SideReport, &DepthProfile) {
-    let (report, snapshot) = (&summary.last, &run.snapshots[run.snapshots.len() - 1]);
-    match side {
-        Side::Slider => (&report.slider, &snapshot.slider),
-        Side::Receptacle => (&report.receptacle, &snapshot.receptacle),
-    }
+struct WornSide<'a> {
+    report: &'a SideReport,
+    profile: &'a DepthProfile,
+}
+
+fn worn(solved: &(Summary, Recorder), side: Side) -> WornSide<'_> {
+    let (summary, run) = solved;
+    let (last, snapshot) = (&summary.last, &run.snapshots[run.snapshots.len() - 1]);
+    let (report, profile) = match side {
+        Side::Slider => (&last.slider, &snapshot.slider),
+        Side::Receptacle => (&last.receptacle, &snapshot.receptacle),
+    };
+    WornSide { report, profile }
 }
 
 /// Errors of depth, scar width, profile at its worst place and profile in area, per cent.
-fn errors(
-    (found, profile): (&SideReport, &DepthProfile),
-    (exact, converged): (&SideReport, &DepthProfile),
-) -> [f64; 4] {
+fn errors(found: &WornSide<'_>, exact: &WornSide<'_>) -> [f64; 4] {
+    let (reports, profiles) = ([found.report, exact.report], [found.profile, exact.profile]);
     [
-        percent(found.max_depth_mm, exact.max_depth_mm),
-        percent(found.scar_half_width_mm, exact.scar_half_width_mm),
-        100.0 * largest_distance(profile, converged),
-        100.0 * area_between(profile, converged),
+        percent(reports[0].max_depth_mm, reports[1].max_depth_mm),
+        percent(reports[0].scar_half_width_mm, reports[1].scar_half_width_mm),
+        100.0 * largest_distance(profiles[0], profiles[1]),
+        100.0 * area_between(profiles[0], profiles[1]),
     ]
 }
 

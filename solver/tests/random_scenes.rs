@@ -183,14 +183,14 @@ fn scene(u: &mut Numbers, regime: Regime, worn: Worn) -> Scene {
         Regime::PartialSlip | Regime::ShortStroke => 1.5 * half_width,
         Regime::LongGroove => half_width * u.log(3.0, 12.0),
     };
-    let (slider, block) = shapes(u, &contact, (travel, half_width.max(scar)));
+    let (slider, block) = shapes(u, &contact, travel, half_width.max(scar));
     let drive = if u.chance(0.25) {
         Drive::WholeBody
     } else {
         Drive::Handle
     };
     let coefficient = u.within(0.1, 1.2);
-    let slip = gross_slip(&contact, (slider, block), drive, coefficient);
+    let slip = gross_slip(&contact, slider, block, drive, coefficient);
     let share = match regime {
         Regime::PartialSlip => u.within(0.2, 0.9),
         Regime::ShortStroke | Regime::LongGroove => 1.0,

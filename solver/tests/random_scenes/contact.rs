@@ -70,7 +70,8 @@ fn sagitta(radius: f64, half: f64) -> f64 {
 pub(super) fn shapes(
     u: &mut Numbers,
     contact: &Contact,
-    (travel, last): (f64, f64),
+    travel: f64,
+    last: f64,
 ) -> (SliderShape, BlockShape) {
     let &Contact { radius, crown, .. } = contact;
     let half_width = (last * u.log(3.0, 20.0)).min(radius);
@@ -96,7 +97,8 @@ pub(super) fn shapes(
 /// whole does not deform so.
 pub(super) fn gross_slip(
     contact: &Contact,
-    (slider, block): (SliderShape, BlockShape),
+    slider: SliderShape,
+    block: BlockShape,
     drive: Drive,
     friction: f64,
 ) -> f64 {

@@ -153,7 +153,8 @@ fn trapezoidal(mut values: Vec<(f64, f64)>) -> f64 {
 
 /// Integral of a value at the nodes on the surface of a section, N/mm.
 fn on_surface(
-    (section, surface): (&SectionFields, &[usize]),
+    section: &SectionFields,
+    surface: &[usize],
     of: impl Fn(&solver::fields::SurfaceFields) -> f64,
 ) -> f64 {
     let nodes = surface.iter().zip(&section.carried);
@@ -210,7 +211,7 @@ fn surfaces_and_cuts_carry_the_load() {
                 let body = fields.bodies.of(side);
                 let sum = |of: fn(&solver::fields::SurfaceFields) -> f64| {
                     over_width(snapshot, body, |section| {
-                        on_surface((section, &body.surface), of)
+                        on_surface(section, &body.surface, of)
                     }) / force
                 };
                 let (load, friction) = (sum(|s| s.pressure_mpa), sum(|s| s.shear_mpa[0]));
