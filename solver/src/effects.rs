@@ -50,11 +50,11 @@ pub struct Crossing {
 /// Decides which effects a scene requires.
 pub fn plan(scene: &Scene) -> EffectsPlan {
     let indicators = Indicators::of(scene);
-    let mut called_for = Vec::new();
+    let mut required = Vec::new();
     loop {
-        let decisions = choice::decide(scene, &indicators, &called_for);
+        let decisions = choice::decide(scene, &indicators, &required);
         match beyond_budget(&decisions, scene.accuracy.tolerance) {
-            Some(effect) => called_for.push(effect),
+            Some(effect) => required.push(effect),
             None => return EffectsPlan { decisions },
         }
     }
@@ -146,7 +146,7 @@ impl EffectsPlan {
         plan
     }
 
-    /// The skipped effects that the largest worn depths after so many physical cycles call for, mm; a run goes back to the
+    /// The skipped effects that the largest worn depths after so many physical cycles require, mm; a run goes back to the
     /// cycle before.
     pub fn crossed(
         &self,
@@ -160,7 +160,7 @@ impl EffectsPlan {
         let skipped = self
             .decisions
             .iter()
-            .filter(|decision| decision.can_be_called_for())
+            .filter(|decision| decision.can_be_required())
             .filter_map(|decision| {
                 let indicator = decision.indicator?;
                 let value = indicators.value(decision.effect, depth);
@@ -176,7 +176,7 @@ impl EffectsPlan {
             .map(|(effect, value, _)| (effect, value));
         let effect = alone.or_else(|| largest_beyond(counted, BUDGET * scene.accuracy.tolerance));
         effect.map_or_else(Vec::new, |effect| {
-            self.called_for(effect, back_to, |effect| {
+            self.required(effect, back_to, |effect| {
                 Some(indicators.value(effect, depth))
             })
         })
@@ -190,14 +190,14 @@ impl EffectsPlan {
         electrical: &ElectricalState,
     ) -> Vec<Crossing> {
         let decision = self.decision(Effect::JouleHeating);
-        let skipped = decision.filter(|decision| decision.can_be_called_for());
+        let skipped = decision.filter(|decision| decision.can_be_required());
         let Some(indicator) = skipped.and_then(|decision| decision.indicator) else {
             return Vec::new();
         };
         let rise_k = scene.joule_rise_k(electrical.constriction_mohm());
         let value = Indicators::of(scene).change_by_heat(rise_k);
         if value > indicator.threshold {
-            self.called_for(Effect::JouleHeating, back_to, |_| Some(value))
+            self.required(Effect::JouleHeating, back_to, |_| Some(value))
         } else {
             Vec::new()
         }
@@ -224,7 +224,7 @@ impl EffectsPlan {
 
     /// An effect that a run has required. Where friction acts on the bodies, nodes may stick unless that is switched off or, as in sections
     /// along a line, every node slips.
-    fn called_for(
+    fn required(
         &self,
         effect: Effect,
         cycle: u64,
@@ -236,7 +236,7 @@ impl EffectsPlan {
         };
         let is_skipped = |effect: &Effect| {
             let decision = self.decision(*effect);
-            decision.is_some_and(Decision::can_be_called_for)
+            decision.is_some_and(Decision::can_be_required)
         };
         [effect]
             .into_iter()
@@ -251,15 +251,14 @@ impl EffectsPlan {
 
     /// The skipped effects that a contact without a solution requires, after so many physical cycles: one that jams where
     /// every node has to slip may stick.
-    pub fn called_for_by_failure(&self, cycle: u64) -> Vec<Crossing> {
+    pub fn required_after_failure(&self, cycle: u64) -> Vec<Crossing> {
         let skipped = |effect: &Effect| {
-            self.decision(*effect).is_some_and(|decision| {
-                decision.can_be_called_for() && decision.indicator.is_some()
-            })
+            self.decision(*effect)
+                .is_some_and(|decision| decision.can_be_required() && decision.indicator.is_some())
         };
         let mut effects = [Effect::Friction, Effect::StickMemory].into_iter();
         let effect = effects.find(skipped);
-        effect.map_or_else(Vec::new, |effect| self.called_for(effect, cycle, |_| None))
+        effect.map_or_else(Vec::new, |effect| self.required(effect, cycle, |_| None))
     }
 }
 

@@ -198,8 +198,8 @@ fn integrate(
                     until_limit = sooner;
                     continue;
                 }
-                Some(Consequence::Effects(called_for)) => {
-                    run.go_back(before, called_for);
+                Some(Consequence::Effects(required)) => {
+                    run.go_back(before, required);
                     return Ok(ControlFlow::Continue(Renewal::Effects));
                 }
             }

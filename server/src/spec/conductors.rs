@@ -39,7 +39,7 @@ pub(super) fn resolve(
     bodies: Bodies<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Conductors {
-    let is_asked_for = is_asked_for(filled);
+    let is_requested = is_requested(filled);
     let platings = plating::by_side(&filled.plating);
     let films = films::resolve(
         &filled.interface.films,
@@ -113,7 +113,7 @@ pub(super) fn resolve(
             }
             Conduction::Unknown {
                 missing: missing.unwrap_or(NO_FORCE),
-                is_asked_for,
+                is_requested,
             }
         }
     };
@@ -127,7 +127,7 @@ pub(super) fn resolve(
 }
 
 /// Returns `true` if something of the specification is about the resistance alone.
-fn is_asked_for(filled: &Spec) -> bool {
+fn is_requested(filled: &Spec) -> bool {
     let is_resistance = |kind: &EnumValue<CriterionKind>| {
         matches!(kind, EnumValue::Known(CriterionKind::Resistance))
     };

@@ -53,9 +53,9 @@ impl SectionRun {
     }
 
     /// Restores an earlier state for effects that were skipped.
-    pub(crate) fn go_back(&mut self, to: CycleState, called_for: Vec<Crossing>) {
+    pub(crate) fn go_back(&mut self, to: CycleState, required: Vec<Crossing>) {
         self.state = to;
-        self.crossings.extend(called_for);
+        self.crossings.extend(required);
     }
 
     /// The present block of its mission; the first one without a mission.

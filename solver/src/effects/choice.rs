@@ -23,7 +23,7 @@ const LAYER_SHARE: f64 = 0.8;
 pub(super) fn decide(
     scene: &Scene,
     indicators: &Indicators<'_>,
-    called_for: &[Effect],
+    required: &[Effect],
 ) -> Vec<Decision> {
     let mut decisions: Vec<Decision> = Vec::with_capacity(Effect::ALL.len());
     for &effect in Effect::ALL {
@@ -40,7 +40,7 @@ pub(super) fn decide(
             (None, Some(missing)) => DecisionBasis::Missing(missing),
             (None, None) => DecisionBasis::Indicator(indicator(scene, indicators, effect)),
         };
-        let is_required = called_for.contains(&effect);
+        let is_required = required.contains(&effect);
         let verdict = verdict(scene, effect, basis, is_required);
         decisions.push(Decision {
             effect,
@@ -152,7 +152,7 @@ fn missing_input(scene: &Scene, effect: Effect) -> Option<&'static str> {
         (Effect::Resistance, _) => match scene.conduction {
             Conduction::Unknown {
                 missing,
-                is_asked_for: true,
+                is_requested: true,
             } => Some(missing),
             _ => None,
         },
@@ -236,7 +236,7 @@ fn nothing_to_simulate(
         Effect::Resistance => match scene.conduction {
             Conduction::Unknown {
                 missing,
-                is_asked_for: false,
+                is_requested: false,
             } => Some(missing),
             _ => None,
         },

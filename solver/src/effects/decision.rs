@@ -31,8 +31,8 @@ impl Decision {
         is_missed.then(|| format!("{calls}: {}", self.reason))
     }
 
-    /// Returns `true` if a run may still call for the effect: it is skipped, not switched off, and can be simulated in the scene.
-    pub(super) fn can_be_called_for(&self) -> bool {
+    /// Returns `true` if a run may still require the effect: it is skipped, not switched off, and can be simulated in the scene.
+    pub(super) fn can_be_required(&self) -> bool {
         self.verdict == Verdict::Skipped && self.is_available
     }
 }
@@ -42,7 +42,7 @@ impl Decision {
 pub enum Verdict {
     /// The scene requires it.
     Simulated,
-    /// The scene does not call for it, or has nothing to simulate.
+    /// The scene does not require it, or has nothing to simulate.
     Skipped,
     /// Simulated because the user switched it on.
     ForcedOn,

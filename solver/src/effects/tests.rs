@@ -77,7 +77,7 @@ fn nothing_wears_where_nothing_slides() {
 #[test]
 fn wear_by_time_calls_for_friction_where_wear_by_distance_does_not() {
     let mut scene = fuzz_button();
-    // The walls of a deep groove would call for it too.
+    // The walls of a deep groove would require it too.
     scene.cycles = 50;
     scene.friction = Friction::Coulomb { coefficient: 0.05 };
     let has_friction = |scene: &Scene| simulated(scene).contains(&"friction");
@@ -98,17 +98,17 @@ fn wear_by_time_calls_for_friction_where_wear_by_distance_does_not() {
 /// Every node of a section along a line slips; a contact of one section may stick as soon as shear acts on it.
 #[test]
 fn friction_calls_for_sticking_where_nodes_may_stick_only() {
-    let called_for = |dimension: Dimension| {
+    let required = |dimension: Dimension| {
         let mut scene = fuzz_button();
         scene.cycles = 10;
         scene.friction = Friction::Coulomb { coefficient: 0.05 };
         scene.dimension = dimension;
-        let crossings = plan(&scene).called_for_by_failure(7);
+        let crossings = plan(&scene).required_after_failure(7);
         let effects = crossings.iter().map(|crossing| crossing.effect.name());
         effects.collect::<Vec<_>>()
     };
     assert_eq!(
-        called_for(Dimension::PlaneStrain),
+        required(Dimension::PlaneStrain),
         ["friction", "stick_memory"]
     );
     let ring = Line {
@@ -120,5 +120,5 @@ fn friction_calls_for_sticking_where_nodes_may_stick_only() {
         force_n: 0.0834,
         stations: Some(5),
     };
-    assert_eq!(called_for(Dimension::Line(ring)), ["friction"]);
+    assert_eq!(required(Dimension::Line(ring)), ["friction"]);
 }

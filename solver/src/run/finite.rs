@@ -170,10 +170,10 @@ fn integrate<C: Contact>(
         let until = stops::next(scene, now, |side, part| scars.of(side).depth_of_part(part));
         contact.compute_cycle(&mut run.state, until.min(until_limit))?;
         let (back_to, cycle) = (C::cycle(&before), C::cycle(&run.state));
-        let called_for = plan.crossed(scene, back_to, cycle, C::max_depth_mm(&run.state));
-        if !called_for.is_empty() {
+        let required = plan.crossed(scene, back_to, cycle, C::max_depth_mm(&run.state));
+        if !required.is_empty() {
             run.state = before;
-            run.crossings.extend(called_for);
+            run.crossings.extend(required);
             return Ok(ControlFlow::Continue(()));
         }
         let electrical_before = run.electrical.clone();

@@ -52,8 +52,8 @@ pub(super) fn load_unworn(
             }
             Err(error) => error,
         };
-        let called_for = plan.called_for_by_failure(0);
-        let reason = match called_for.first() {
+        let required = plan.required_after_failure(0);
+        let reason = match required.first() {
             _ if error.needs_wider_zones() => error.to_string(),
             Some(first) => format!("without {}: {error}", first.effect.name()),
             None => return Err(error),
@@ -66,7 +66,7 @@ pub(super) fn load_unworn(
             model = model.with_zones_widened(widened)?;
             condensed = condensation::condense(&model, scene.threads)?;
         } else {
-            crossings.extend(called_for);
+            crossings.extend(required);
             plan = plan.after(&crossings);
             model.follow(scene, &plan);
         }

@@ -82,8 +82,8 @@ pub(super) fn consequence(
     if let Some(sooner) = stops::resistance_passed(electrical, from, to, resistance) {
         return Some(Consequence::GoTo(sooner));
     }
-    let called_for = plan.crossed_by_current(scene, from, change.after);
-    (!called_for.is_empty()).then_some(Consequence::Effects(called_for))
+    let required = plan.crossed_by_current(scene, from, change.after);
+    (!required.is_empty()).then_some(Consequence::Effects(required))
 }
 
 /// Takes a computed cycle into the lives by the resistance, after those by the depth: a limit that is passed in it is located among its

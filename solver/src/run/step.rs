@@ -63,28 +63,28 @@ pub(super) fn step(
             return Ok(Step::Renew(Renewal::Stiffness));
         }
         Err(error) => {
-            let called_for = called_for_by(error, plan, before.cycle);
-            if called_for.is_empty() {
+            let required = required_after(error, plan, before.cycle);
+            if required.is_empty() {
                 return Err(error.into());
             }
-            run.go_back(before, called_for);
+            run.go_back(before, required);
             return Ok(Step::Renew(Renewal::Effects));
         }
     };
     let state = &run.state;
     let depth = state.depth.largest_of_each();
-    let called_for = plan.crossed(scene, before.cycle, state.cycle, depth);
-    if called_for.is_empty() {
+    let required = plan.crossed(scene, before.cycle, state.cycle, depth);
+    if required.is_empty() {
         return Ok(Step::Cycle(Box::new(before), Box::new(record)));
     }
-    run.go_back(before, called_for);
+    run.go_back(before, required);
     Ok(Step::Renew(Renewal::Effects))
 }
 
 /// The skipped effects that an error after so many cycles requires: those that a contact without a solution may have one with.
-fn called_for_by(error: CycleError, plan: &EffectsPlan, cycle: u64) -> Vec<Crossing> {
+fn required_after(error: CycleError, plan: &EffectsPlan, cycle: u64) -> Vec<Crossing> {
     match error {
-        CycleError::Increment { .. } => plan.called_for_by_failure(cycle),
+        CycleError::Increment { .. } => plan.required_after_failure(cycle),
         CycleError::Melts { .. } => Vec::new(),
     }
 }

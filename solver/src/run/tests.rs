@@ -79,7 +79,7 @@ fn a_run_goes_back_and_switches_on_what_it_calls_for() {
 }
 
 #[test]
-fn a_resumed_run_continues_with_what_it_has_called_for() {
+fn a_resumed_run_continues_with_what_it_has_required() {
     let scene = scene(400);
     let mut whole = Recorder::default();
     let done = begin(
@@ -89,8 +89,8 @@ fn a_resumed_run_continues_with_what_it_has_called_for() {
         &mut whole,
     );
     let done = done.expect("it can be solved");
-    let called_for = whole.checkpoints.iter();
-    let from = called_for.filter(
+    let required = whole.checkpoints.iter();
+    let from = required.filter(
         |checkpoint| matches!(checkpoint, Checkpoint::Section(run) if !run.crossings.is_empty()),
     );
     let from = from

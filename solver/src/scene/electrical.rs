@@ -17,7 +17,7 @@ pub enum Conduction {
         /// The missing input, in words.
         missing: &'static str,
         /// True if the resistance is requested.
-        is_asked_for: bool,
+        is_requested: bool,
     },
 }
 
@@ -25,7 +25,7 @@ impl Default for Conduction {
     fn default() -> Self {
         Self::Unknown {
             missing: "nothing is known about the contact as a conductor",
-            is_asked_for: false,
+            is_requested: false,
         }
     }
 }
