@@ -25,9 +25,9 @@ use crate::scene::{Dimension, Scene};
 use computed::Computed;
 use load::{Loaded, load_unworn};
 use progress::{end, progress};
-use resistance::Consequence;
+use resistance::RequiredAction;
 use snapshot::snapshot;
-use step::{Renewal, Step, step};
+use step::{RequiredUpdate, Step, step};
 use summary::summary;
 
 /// Solves a scene from the unworn bodies to its end.
@@ -141,16 +141,16 @@ fn advance(
             ControlFlow::Break(outcome) => {
                 return Ok(summary(scene, &plan, &model, &run, outcome));
             }
-            ControlFlow::Continue(Renewal::Effects) => {
+            ControlFlow::Continue(RequiredUpdate::Effects) => {
                 plan = plan.after(&run.crossings);
                 model.follow(scene, &plan);
                 continue;
             }
-            ControlFlow::Continue(Renewal::Motion) => {
+            ControlFlow::Continue(RequiredUpdate::Motion) => {
                 next_block(scene, &model, &mut run);
                 continue;
             }
-            ControlFlow::Continue(Renewal::Stiffness) => {}
+            ControlFlow::Continue(RequiredUpdate::Stiffness) => {}
         }
         observer.on_phase(Phase::Relocate);
         run.relocated();
@@ -169,7 +169,7 @@ fn integrate(
     condensed: &Condensed,
     run: &mut SectionRun,
     observer: &mut dyn Observer,
-) -> Result<ControlFlow<Outcome, Renewal>, SolveError> {
+) -> Result<ControlFlow<Outcome, RequiredUpdate>, SolveError> {
     let blocks = scene.blocks();
     let block = &blocks[run.block()];
     let mut integrator = Integrator::new(block, model, &condensed.operators);
@@ -178,29 +178,29 @@ fn integrate(
     let mut until_limit = u64::MAX;
     while run.state.cycle < scene.cycles {
         if run.is_block_done() {
-            return Ok(ControlFlow::Continue(Renewal::Motion));
+            return Ok(ControlFlow::Continue(RequiredUpdate::Motion));
         }
         if model.relocates && ale::has_drifted(model, &run.state.depth, &scene.accuracy) {
-            return Ok(ControlFlow::Continue(Renewal::Stiffness));
+            return Ok(ControlFlow::Continue(RequiredUpdate::Stiffness));
         }
         let left = run.block_left().map(|left| blocks[left].motion);
         let step = step(scene, plan, model, &mut integrator, run, left, until_limit)?;
         let (before, record) = match step {
             Step::Cycle(before, record) => (*before, *record),
             Step::MotionChanged => continue,
-            Step::Renew(renewal) => return Ok(ControlFlow::Continue(renewal)),
+            Step::Update(update) => return Ok(ControlFlow::Continue(update)),
         };
         let electrical = run.electrical.clone();
         if let Some(evaluation) = &evaluation {
             match resistance::update(evaluation, scene, plan, model, condensed, run, &before) {
                 None => {}
-                Some(Consequence::GoTo(sooner)) => {
+                Some(RequiredAction::GoTo(sooner)) => {
                     until_limit = sooner;
                     continue;
                 }
-                Some(Consequence::Effects(required)) => {
+                Some(RequiredAction::Effects(required)) => {
                     run.go_back(before, required);
-                    return Ok(ControlFlow::Continue(Renewal::Effects));
+                    return Ok(ControlFlow::Continue(RequiredUpdate::Effects));
                 }
             }
         }

@@ -8,7 +8,7 @@ use crate::law::surface::{self, SurfaceWear};
 use crate::number::real_cycles;
 use crate::scene::{Mission, Scene};
 use crate::schedule::mission::MissionPosition;
-use crate::schedule::stops::Progress;
+use crate::schedule::stops::StopQuantities;
 use crate::sides::{Side, Sides};
 
 /// Wear of a block of a mission.
@@ -76,7 +76,7 @@ impl MissionState {
         scene: &Scene,
         state: &mut CycleState,
         wear: &Sides<Option<SurfaceWear>>,
-        progress: impl Fn(&CycleState, Sides<&[f64]>) -> Progress,
+        progress: impl Fn(&CycleState, Sides<&[f64]>) -> StopQuantities,
         depth: impl Fn(&CycleState, Side, f64) -> f64,
     ) {
         let total = BlockWear::total(state, wear);

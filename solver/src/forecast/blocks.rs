@@ -7,7 +7,7 @@ use crate::model::Layout;
 use crate::number::real_cycles;
 use crate::scene::{Motion, Scene};
 use crate::schedule::jump::JumpControl;
-use crate::schedule::stops::{self, Progress};
+use crate::schedule::stops::{self, StopQuantities};
 use crate::sides::{Side, Sides};
 
 /// A block with its own scar.
@@ -71,12 +71,12 @@ impl WornBlocks {
     }
 
     /// Progress of the forecast run in a block for its stops.
-    pub(super) fn progress(&self, block: usize, cycle: u64) -> Progress {
+    pub(super) fn progress(&self, block: usize, cycle: u64) -> StopQuantities {
         self.progress_at(self.blocks[block].fastest_rate(), cycle)
     }
 
     /// The same at the mean rate of all blocks.
-    pub(super) fn mean_progress(&self, cycle: u64) -> Progress {
+    pub(super) fn mean_progress(&self, cycle: u64) -> StopQuantities {
         let total: f64 = self.cycles.iter().sum();
         let rates = Sides::from_fn(|side| {
             let blocks = self.blocks.iter().zip(&self.cycles);
@@ -89,14 +89,14 @@ impl WornBlocks {
     }
 
     /// The same at rates of each side, mm a cycle.
-    fn progress_at(&self, rates: Sides<f64>, cycle: u64) -> Progress {
+    fn progress_at(&self, rates: Sides<f64>, cycle: u64) -> StopQuantities {
         let left = self.remaining();
         let shares = left.zip(self.heights).map(|(left, height)| left / height);
         let cycles = left
             .zip(rates)
             .map(|(left, rate)| left / rate.max(f64::MIN_POSITIVE));
         let initial = self.blocks[0].scar.initial;
-        Progress {
+        StopQuantities {
             cycle,
             cycles_left: cycles.slider.min(cycles.receptacle),
             fastest_rate: initial.zip(rates).map(|(initial, rate)| initial * rate),

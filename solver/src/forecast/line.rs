@@ -17,7 +17,7 @@ use crate::number::{real, real_cycles};
 use crate::scene::{Dimension, LineShape, Motion, RingMotion, Scene, Top};
 use crate::schedule::jump::JumpControl;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
-use crate::schedule::stops::{self, Progress};
+use crate::schedule::stops::{self, StopQuantities};
 use crate::sides::{Side, Sides};
 use crate::station::StationScene;
 
@@ -306,12 +306,12 @@ fn is_too_deep(scene: &Scene, sections: &[Section]) -> bool {
     deepest(sections, Side::Receptacle, 0.0) >= scene.slider.shape.radius_mm
 }
 
-fn progress(sections: &[Section], cycle: u64) -> Progress {
+fn progress(sections: &[Section], cycle: u64) -> StopQuantities {
     let rates = sections.iter().map(|section| section.jump.fastest_rate());
     let fastest_rate = rates.fold(Sides::default(), |most: Sides<f64>, rate| {
         most.zip(rate).map(|(most, rate)| most.max(rate))
     });
-    Progress {
+    StopQuantities {
         cycle,
         cycles_left: f64::INFINITY,
         fastest_rate,

@@ -10,7 +10,7 @@ mod sections;
 
 use std::ops::ControlFlow;
 
-use super::resistance::{self, Consequence};
+use super::resistance::{self, RequiredAction};
 use crate::SolveError;
 use crate::checkpoint::{
     CheckpointMismatch, EarlierRuns, ExtrudedRun, FiniteRun, LineRun, PointRun,
@@ -22,7 +22,7 @@ use crate::observer::{Event, Observer, Phase};
 use crate::point::PointIntegrator;
 use crate::record::{Compared, Exposed, Initial, Life, Outcome, Summary};
 use crate::scene::{Dimension, Scene};
-use crate::schedule::stops::{self, Progress};
+use crate::schedule::stops::{self, StopQuantities};
 use crate::sides::Side;
 use crate::station::LineIntegrator;
 use conduction::{push_life_by_resistance, range, update_resistance};
@@ -189,7 +189,8 @@ fn integrate<C: Contact>(
             after: &run.electrical,
         };
         let range = range::<C>(&before, &run.state);
-        if let Some(Consequence::GoTo(sooner)) = resistance::consequence(scene, plan, range, change)
+        if let Some(RequiredAction::GoTo(sooner)) =
+            resistance::required_action(scene, plan, range, change)
         {
             run.state = before;
             (run.electrical, until_limit) = (electrical_before, sooner);
@@ -228,9 +229,9 @@ fn integrate<C: Contact>(
 }
 
 /// Progress for its stops.
-fn progress<C: Contact>(scene: &Scene, contact: &C, run: &FiniteRun<C::State>) -> Progress {
+fn progress<C: Contact>(scene: &Scene, contact: &C, run: &FiniteRun<C::State>) -> StopQuantities {
     let (cycles_left, worn_through) = contact.cycles_left();
-    Progress {
+    StopQuantities {
         cycle: C::cycle(&run.state),
         cycles_left,
         fastest_rate: C::fastest_rate(&run.state),

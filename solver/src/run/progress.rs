@@ -8,7 +8,7 @@ use crate::law::surface;
 use crate::model::Model;
 use crate::record::{self, Exposed, Outcome};
 use crate::scene::Scene;
-use crate::schedule::stops::{self, Progress};
+use crate::schedule::stops::{self, StopQuantities};
 use crate::sides::Sides;
 
 /// The outcome of a run that ends here.
@@ -24,8 +24,13 @@ pub(super) fn end(
 }
 
 /// Progress for its stops.
-pub(super) fn now(scene: &Scene, model: &Model, spines: &Spines, run: &SectionRun) -> Progress {
-    Progress {
+pub(super) fn now(
+    scene: &Scene,
+    model: &Model,
+    spines: &Spines,
+    run: &SectionRun,
+) -> StopQuantities {
+    StopQuantities {
         exceeds_resistance: resistance::exceeds_limit(scene, &run.electrical),
         ..progress(model, spines, &run.state, run.state.jump.rates())
     }
@@ -37,12 +42,12 @@ pub(super) fn progress(
     spines: &Spines,
     state: &CycleState,
     equivalent: Sides<&[f64]>,
-) -> Progress {
+) -> StopQuantities {
     let wear = model.interface.wear;
     let rates = Sides::from_fn(|side| {
         surface::at_relative_rates(*wear.of(side), equivalent.of(side), state.depth.of(side))
     });
-    Progress {
+    StopQuantities {
         cycle: state.cycle,
         cycles_left: spines.cycles_left(&state.depth, rates.as_ref().map(|rates| &rates[..])),
         fastest_rate: equivalent.map(|rates| rates.iter().fold(0.0, |m: f64, rate| m.max(*rate))),

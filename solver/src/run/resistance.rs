@@ -21,7 +21,7 @@ pub(super) fn evaluation<'a>(scene: &'a Scene, plan: &EffectsPlan) -> Option<Eva
 }
 
 /// Action of the run that the resistance after a computed cycle requires.
-pub(super) enum Consequence {
+pub(super) enum RequiredAction {
     /// Go to a cycle instead: a limit of the resistance was passed in too long a step.
     GoTo(u64),
     /// Simulate effects that were skipped.
@@ -38,7 +38,7 @@ pub(super) fn update(
     condensed: &Condensed,
     run: &mut SectionRun,
     before: &CycleState,
-) -> Option<Consequence> {
+) -> Option<RequiredAction> {
     let electrical = run.electrical.clone();
     let computed = Computed {
         evaluation,
@@ -55,35 +55,35 @@ pub(super) fn update(
         before: &electrical,
         after: &run.electrical,
     };
-    let found = consequence(scene, plan, computed.cycles(), change);
+    let found = required_action(scene, plan, computed.cycles(), change);
     match &found {
         None => run.state.constriction_mohm = run.electrical.constriction_mohm(),
-        Some(Consequence::GoTo(_)) => {
+        Some(RequiredAction::GoTo(_)) => {
             run.state = CycleState {
                 work: run.state.work,
                 ..before.clone()
             };
             run.electrical = electrical;
         }
-        Some(Consequence::Effects(_)) => run.electrical = electrical,
+        Some(RequiredAction::Effects(_)) => run.electrical = electrical,
     }
     found
 }
 
-/// The consequence of the resistances before and after a computed cycle, if there is one.
-pub(super) fn consequence(
+/// The action that the resistances before and after a computed cycle require, if any.
+pub(super) fn required_action(
     scene: &Scene,
     plan: &EffectsPlan,
     CycleRange { from, to }: CycleRange,
     change: ElectricalChange<'_>,
-) -> Option<Consequence> {
+) -> Option<RequiredAction> {
     let electrical = scene.conduction.known()?;
     let resistance = change.total_mohm()?;
     if let Some(sooner) = stops::resistance_passed(electrical, from, to, resistance) {
-        return Some(Consequence::GoTo(sooner));
+        return Some(RequiredAction::GoTo(sooner));
     }
     let required = plan.crossed_by_current(scene, from, change.after);
-    (!required.is_empty()).then_some(Consequence::Effects(required))
+    (!required.is_empty()).then_some(RequiredAction::Effects(required))
 }
 
 /// Takes a computed cycle into the lives by the resistance, after those by the depth: a limit that is passed in it is located among its

@@ -10,8 +10,8 @@ use crate::run::progress::now;
 use crate::scene::{Motion, Scene};
 use crate::schedule::stops;
 
-/// Renewal that a run needs before its next cycle.
-pub(super) enum Renewal {
+/// Update that a run needs before its next cycle.
+pub(super) enum RequiredUpdate {
     /// The stiffness of the bodies: the geometry has drifted, or the contact has outgrown its zones.
     Stiffness,
     /// Effects that were skipped.
@@ -27,7 +27,7 @@ pub(super) enum Step {
     /// The motion of the block.
     MotionChanged,
     /// The state before, which needs something else.
-    Renew(Renewal),
+    Update(RequiredUpdate),
 }
 
 /// Computes the next cycle, up to `until_limit` at most, or changes the motion to that of the present block from the one that the run has
@@ -60,7 +60,7 @@ pub(super) fn step(
         Err(error) if error.needs_wider_zones() => {
             run.state = before;
             run.widen();
-            return Ok(Step::Renew(Renewal::Stiffness));
+            return Ok(Step::Update(RequiredUpdate::Stiffness));
         }
         Err(error) => {
             let required = required_after(error, plan, before.cycle);
@@ -68,7 +68,7 @@ pub(super) fn step(
                 return Err(error.into());
             }
             run.go_back(before, required);
-            return Ok(Step::Renew(Renewal::Effects));
+            return Ok(Step::Update(RequiredUpdate::Effects));
         }
     };
     let state = &run.state;
@@ -78,7 +78,7 @@ pub(super) fn step(
         return Ok(Step::Cycle(Box::new(before), Box::new(record)));
     }
     run.go_back(before, required);
-    Ok(Step::Renew(Renewal::Effects))
+    Ok(Step::Update(RequiredUpdate::Effects))
 }
 
 /// The skipped effects that an error after so many cycles requires: those that a contact without a solution may have one with.

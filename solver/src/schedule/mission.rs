@@ -7,7 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::stops::{self, Progress};
+use super::stops::{self, StopQuantities};
 use super::stroke::even_friction;
 use crate::number::{cycles_at_least, real_cycles};
 use crate::scene::{Mission, Scene};
@@ -74,7 +74,7 @@ impl MissionPosition {
     pub(crate) fn next(
         self,
         scene: &Scene,
-        now: Progress,
+        now: StopQuantities,
         depth: impl Fn(Side, f64) -> f64,
     ) -> Self {
         let Some(mission) = &scene.mission else {
@@ -99,7 +99,7 @@ fn rounds(
     scene: &Scene,
     mission: &Mission,
     done: u64,
-    now: Progress,
+    now: StopQuantities,
     depth: impl Fn(Side, f64) -> f64,
 ) -> u64 {
     let accuracy = &scene.accuracy;

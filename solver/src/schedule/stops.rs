@@ -27,7 +27,7 @@ pub enum Outcome {
 
 /// Quantities that stops depend on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Progress {
+pub(crate) struct StopQuantities {
     /// Physical cycles done.
     pub(crate) cycle: u64,
     /// Cycles in which a body would be worn through somewhere at the present rates.
@@ -46,7 +46,7 @@ const LIFE_STEP: f64 = 0.01;
 
 /// The next cycle that must be hit exactly, at a snapshot or a point of the friction's table, or beyond which a criterion or a body's
 /// height would be passed at the present rate; a criterion of a life may be passed by a small step. `depth` is that of a part of a side's scar, mm.
-pub(crate) fn next(scene: &Scene, now: Progress, depth: impl Fn(Side, f64) -> f64) -> u64 {
+pub(crate) fn next(scene: &Scene, now: StopQuantities, depth: impl Fn(Side, f64) -> f64) -> u64 {
     if now.exceeds_resistance {
         return now.cycle + 1;
     }
@@ -111,7 +111,7 @@ fn next_point_of_friction(scene: &Scene, cycle: u64) -> u64 {
 /// How the run ends here, if it does; `depth` is that of a part of a side's scar, mm.
 pub(crate) fn end(
     scene: &Scene,
-    now: Progress,
+    now: StopQuantities,
     depth: impl Fn(Side, f64) -> f64,
 ) -> Option<Outcome> {
     let reached =
@@ -148,7 +148,7 @@ mod tests {
         move |side, part| *of_receptacle((1.0 - part) * depth_mm).of(side)
     }
 
-    const UNWORN: Progress = Progress {
+    const UNWORN: StopQuantities = StopQuantities {
         cycle: 0,
         cycles_left: f64::INFINITY,
         fastest_rate: of_receptacle(0.0),
@@ -156,7 +156,7 @@ mod tests {
         exceeds_resistance: false,
     };
 
-    const WEARING: Progress = Progress {
+    const WEARING: StopQuantities = StopQuantities {
         fastest_rate: of_receptacle(1.0 / 1_024.0),
         ..UNWORN
     };
@@ -167,19 +167,19 @@ mod tests {
         scene.output.snapshots_at_cycles = vec![100, 400];
         scene.stop = vec![deepest(0.25)];
         assert_eq!(next(&scene, UNWORN, worn(0.0)), 100);
-        let wearing = Progress {
+        let wearing = StopQuantities {
             cycle: 100,
             ..WEARING
         };
         assert_eq!(next(&scene, wearing, worn(0.125)), 228);
         scene.stop.clear();
         assert_eq!(next(&scene, wearing, worn(0.125)), 400);
-        let exceeding = Progress {
+        let exceeding = StopQuantities {
             exceeds_resistance: true,
             ..wearing
         };
         assert_eq!(next(&scene, exceeding, worn(0.125)), 101);
-        let thin = Progress {
+        let thin = StopQuantities {
             cycles_left: 16.5,
             ..wearing
         };
@@ -193,7 +193,7 @@ mod tests {
         scene.stop.clear();
         scene.output.snapshots_at_cycles.clear();
         scene.life = vec![deepest(0.25)];
-        let next = |cycle, depth| next(&scene, Progress { cycle, ..WEARING }, worn(depth));
+        let next = |cycle, depth| next(&scene, StopQuantities { cycle, ..WEARING }, worn(depth));
         assert_eq!(next(10_000, 0.125), 10_128);
         assert_eq!(next(10_000, 0.249), 10_100);
         // Passed.
@@ -205,7 +205,7 @@ mod tests {
         let mut scene = fuzz_button();
         scene.stop = vec![deepest(0.25)];
         assert_eq!(end(&scene, UNWORN, worn(0.0)), None);
-        let consumed = Progress {
+        let consumed = StopQuantities {
             worn_through: true,
             ..UNWORN
         };
@@ -218,7 +218,7 @@ mod tests {
             end(&scene, consumed, worn(0.25)),
             Some(Outcome::WornThrough)
         );
-        let last = Progress {
+        let last = StopQuantities {
             cycle: scene.cycles,
             ..UNWORN
         };
