@@ -12,12 +12,12 @@
 //! loop in partial slip.
 
 mod check;
+mod contact_at_position;
 mod error;
 mod field;
 mod integrator;
 mod jump;
 mod lattice;
-mod placed;
 mod point_state;
 mod record;
 mod run;
@@ -29,10 +29,10 @@ mod stick;
 mod surface;
 mod window;
 
+pub(crate) use contact_at_position::ContactAtPosition;
 pub use error::PointError;
 pub(crate) use integrator::PointIntegrator;
 pub(crate) use jump::JumpControl;
-pub(crate) use placed::Placed;
 pub use point_state::PointState;
 pub use record::{DepthMap, PointCycle, PointOutcome, PointSummary};
 pub use run::run;

@@ -96,9 +96,9 @@ pub(crate) fn along_line(
     let mut factored: Vec<Factored> = sections.iter().map(|_| Factored::default()).collect();
     let mut fields = Vec::with_capacity(first.contacts.len());
     for (number, (position, _)) in first.contacts.iter().enumerate() {
-        let placed: Vec<Placed<'_>> = sections
+        let placed: Vec<SectionAtPosition<'_>> = sections
             .iter()
-            .map(|section| Placed::of(section, number, slides.then_some(shape)))
+            .map(|section| SectionAtPosition::of(section, number, slides.then_some(shape)))
             .collect();
         let bodies = Sides::from_fn(|side| swept(side, &placed, &mut factored)).transpose()?;
         fields.push(LineFields {
@@ -112,7 +112,7 @@ pub(crate) fn along_line(
 }
 
 /// A section with its contact at a position.
-struct Placed<'a> {
+struct SectionAtPosition<'a> {
     section: &'a SectionState<'a>,
     contact: &'a ContactState,
     /// Number of the zone of each body that holds the contact.
@@ -120,7 +120,7 @@ struct Placed<'a> {
     carried: Sides<Vec<SurfaceFields>>,
 }
 
-impl<'a> Placed<'a> {
+impl<'a> SectionAtPosition<'a> {
     fn of(section: &'a SectionState<'a>, number: usize, slides: Option<LineShape>) -> Self {
         let (position, contact) = section.contacts[number];
         let zone = Sides::from_fn(|side| {
@@ -219,13 +219,13 @@ impl<'a> Placed<'a> {
 /// The fields of a body in all sections.
 fn swept(
     side: Side,
-    placed: &[Placed<'_>],
+    placed: &[SectionAtPosition<'_>],
     factored: &mut [Factored],
 ) -> Result<SweptFields, FieldsError> {
     let body = placed[0].body(side);
     let common = CommonMesh::of(body, placed.iter().map(|placed| placed.zone(side)));
     let on_surface = SurfaceNodes::of(&common.mesh, common.spines(), body.layout.contact);
-    let section = |(placed, factored): (&Placed<'_>, &mut Factored)| {
+    let section = |(placed, factored): (&SectionAtPosition<'_>, &mut Factored)| {
         let surface_y = ale::worn(body, placed.section.depth.of(side), side);
         let mesh = common.with_surface(&surface_y);
         let by = match side {

@@ -1,9 +1,9 @@
 //! Computed cycles of a point contact: each stands for a jump, whose wear both of its passes do at once.
 
 use super::check;
+use super::contact_at_position::ContactAtPosition;
 use super::error::PointError;
 use super::jump::{JumpControl, jump_error, rejected, share_in_wear};
-use super::placed::Placed;
 use super::point_state::PointState;
 use super::record::PointCycle;
 use super::sliding::Sliding;
@@ -41,7 +41,7 @@ impl PointIntegrator {
         }
         // Without wear there is no skew.
         let at_neutral = sliding.unskewed(&state, 1.0, scene.force_n)?;
-        let neutral = Placed::of(scene, &at_neutral, 0.0);
+        let neutral = ContactAtPosition::of(scene, &at_neutral, 0.0);
         let mut state = PointState {
             control: JumpControl::default(),
             turning: [neutral.clone(), neutral.clone()],
@@ -131,14 +131,15 @@ impl PointIntegrator {
             for (direction, end) in [1.0, -1.0].into_iter().zip(turning.iter_mut()) {
                 for at in [&mut *neutral, end] {
                     sliding.slip_partly(present, direction * scene.amplitude_mm, jump)?;
-                    *at = Placed::of(scene, present, direction);
+                    *at = ContactAtPosition::of(scene, present, direction);
                     increments.push(at.tangential);
                 }
             }
         } else if n == 0 {
             sliding.wear_in_place(present, jump)?;
-            *neutral = Placed::of(scene, present, last);
-            *turning = [-last, last].map(|direction| Placed::of(scene, present, direction));
+            *neutral = ContactAtPosition::of(scene, present, last);
+            *turning =
+                [-last, last].map(|direction| ContactAtPosition::of(scene, present, direction));
         } else {
             let (start, end) = match present.position {
                 0 => (0, 2 * n),
@@ -146,18 +147,18 @@ impl PointIntegrator {
             };
             sliding.half_pass(present, n, jump)?;
             sliding.half_pass(present, end, jump)?;
-            turning[0] = Placed::of(scene, present, -last);
+            turning[0] = ContactAtPosition::of(scene, present, -last);
             for side in Side::BOTH {
                 present.surfaces.of_mut(side).turn();
             }
             sliding.half_pass(present, n, jump)?;
-            *neutral = Placed::of(scene, present, last);
+            *neutral = ContactAtPosition::of(scene, present, last);
             sliding.half_pass(present, start, jump)?;
-            turning[1] = Placed::of(scene, present, last);
+            turning[1] = ContactAtPosition::of(scene, present, last);
             if self.wears_once() && self.step(state) < UNSKEWED_TO {
                 let force_n = state.neutral.force_n;
                 let unskewed = self.sliding.unskewed(&state.sliding, jump, force_n)?;
-                state.neutral = Placed::of(&self.scene, &unskewed, last);
+                state.neutral = ContactAtPosition::of(&self.scene, &unskewed, last);
             }
         }
         let mut sums = WearSums::default();

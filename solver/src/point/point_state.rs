@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::contact_at_position::ContactAtPosition;
 use super::jump::JumpControl;
-use super::placed::Placed;
 use super::record::{DepthMap, PointCycle};
 use super::state::State;
 use crate::closed_form::PointScene;
@@ -16,8 +16,8 @@ pub struct PointState {
     pub(super) sliding: State,
     pub(super) control: JumpControl,
     /// The contact at the neutral position, and at both turning points of the last cycle.
-    pub(super) neutral: Placed,
-    pub(super) turning: [Placed; 2],
+    pub(super) neutral: ContactAtPosition,
+    pub(super) turning: [ContactAtPosition; 2],
     pub(super) done: u64,
     pub(super) computed: usize,
     /// Most contact solves of a cycle.
@@ -103,12 +103,12 @@ impl PointState {
     }
 
     /// The contact at the neutral position.
-    pub(crate) fn neutral(&self) -> &Placed {
+    pub(crate) fn neutral(&self) -> &ContactAtPosition {
         &self.neutral
     }
 
     /// The contact at the ends of both passes of the last cycle.
-    pub(crate) fn turning(&self) -> &[Placed; 2] {
+    pub(crate) fn turning(&self) -> &[ContactAtPosition; 2] {
         &self.turning
     }
 

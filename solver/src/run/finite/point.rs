@@ -10,7 +10,7 @@ use crate::effects::EffectsPlan;
 use crate::electrical::{AreaContact, ContactResistance};
 use crate::interpolation::part_way;
 use crate::number::count;
-use crate::point::{DepthMap, Placed, PointError, PointIntegrator, PointState};
+use crate::point::{ContactAtPosition, DepthMap, PointError, PointIntegrator, PointState};
 use crate::record::{
     self, AreaMaps, Checks, CycleReport, DepthProfile, FrictionLoop, Outcome, PointEnd, Position,
     PressureMap, Resolution, Snapshot, TractionField, WornArea,
@@ -212,7 +212,7 @@ fn snapshot(
     }
 }
 
-fn tractions(position: Position, slider_x_mm: f64, placed: &Placed) -> TractionField {
+fn tractions(position: Position, slider_x_mm: f64, placed: &ContactAtPosition) -> TractionField {
     TractionField {
         position,
         slider_x_mm,
@@ -222,7 +222,7 @@ fn tractions(position: Position, slider_x_mm: f64, placed: &Placed) -> TractionF
     }
 }
 
-fn pressure_map(placed: &Placed) -> PressureMap {
+fn pressure_map(placed: &ContactAtPosition) -> PressureMap {
     let cells = placed.cells;
     PressureMap {
         x_mm: placed.x_on_receptacle(),

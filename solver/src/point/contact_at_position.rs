@@ -10,7 +10,7 @@ use crate::sides::Sides;
 
 /// The contact at a position of the slider.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Placed {
+pub(crate) struct ContactAtPosition {
     pub(super) peak_pressure_mpa: f64,
     pub(super) half_lengths_mm: (f64, f64),
     pub(super) line_load_n_per_mm: f64,
@@ -25,7 +25,7 @@ pub(crate) struct Placed {
     pub(super) tangential: (f64, f64),
 }
 
-impl Placed {
+impl ContactAtPosition {
     /// Centres of the rows of cells on the receptacle, mm.
     pub(crate) fn x_on_receptacle(&self) -> Vec<f64> {
         let rows = 0..self.cells.along_x;
