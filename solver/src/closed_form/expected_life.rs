@@ -113,7 +113,7 @@ fn strokes(scene: &Scene) -> Vec<Stroke> {
 
 /// Quantities of a rider and a receptacle that both wear.
 #[derive(Debug, Clone, Copy)]
-struct Shared {
+struct WearPartition {
     /// Half-width of the rider's flat, mm.
     half_width: f64,
     /// Largest dose of the receptacle over that of the rider.
@@ -166,16 +166,16 @@ impl Contact<'_> {
 
     /// P' s at which the rider of two bodies that wear has a dose at its deepest place.
     fn both(&self, dose: f64) -> Option<f64> {
-        let shared = self.shared(dose);
+        let partition = self.partition(dose);
         let sides = [
             (Side::Slider, 1.0, 1.0),
-            (Side::Receptacle, shared.dose, shared.depth),
+            (Side::Receptacle, partition.dose, partition.depth),
         ];
-        self.section(&sides, dose, shared.half_width)
+        self.section(&sides, dose, partition.half_width)
     }
 
     /// Width of the rider's flat that has a dose at its deepest place, and what it shares with the receptacle.
-    fn shared(&self, dose: f64) -> Shared {
+    fn partition(&self, dose: f64) -> WearPartition {
         // Doses of all places of the flat, over the largest one and the half-width.
         let sum = self.section(&[(Side::Slider, 1.0, 1.0)], dose, 1.0);
         let sum = sum.map_or(UNIFORM, |sum| sum / dose);
@@ -187,16 +187,16 @@ impl Contact<'_> {
                     .sum()
             };
             let dose = mean(|strokes, sum| 1.0 / (1.0 + 2.0 * strokes / sum));
-            Shared {
+            WearPartition {
                 half_width,
                 dose,
                 depth: mean(|strokes, _| (-SHARED_DEPTH * strokes).exp()) / dose,
             }
         };
         let slider = self.depth(Side::Slider, dose);
-        let width_of = |shared: Shared| {
-            let receptacle = self.depth(Side::Receptacle, shared.dose * dose);
-            self.arc(slider + shared.depth * receptacle)
+        let width_of = |partition: WearPartition| {
+            let receptacle = self.depth(Side::Receptacle, partition.dose * dose);
+            self.arc(slider + partition.depth * receptacle)
         };
         let (mut low, mut high) = (
             self.arc(slider),
@@ -225,7 +225,7 @@ impl Contact<'_> {
         };
         let at = |depth: f64| {
             let rider = self.dose(Side::Slider, depth)?;
-            Some((self.both(rider)?, self.shared(rider).half_width))
+            Some((self.both(rider)?, self.partition(rider).half_width))
         };
         let least = SMALLEST_DEPTH * self.radius;
         let mut high = least;

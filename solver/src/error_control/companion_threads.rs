@@ -27,16 +27,16 @@ pub(super) struct CompanionThreads<'scope, 'env> {
     scope: &'scope Scope<'scope, 'env>,
     scene: &'env Scene,
     plan: &'env EffectsPlan,
-    common: Arc<Common>,
+    queue: Arc<CompanionQueue>,
     /// For threads that are still to be begun.
-    sender: Option<Sender<Progress>>,
-    received: Receiver<Progress>,
+    sender: Option<Sender<CompanionMessage>>,
+    received: Receiver<CompanionMessage>,
     /// Companions that have ended, by their number.
     ended: BTreeMap<usize, Solved>,
 }
 
 /// State that all threads share.
-struct Common {
+struct CompanionQueue {
     /// Number of the next companion, and the checkpoint that it is resumed from.
     next: Mutex<(usize, Option<Checkpoint>)>,
     /// Number of the companion that the run waits for.
@@ -45,7 +45,7 @@ struct Common {
 }
 
 /// Message of a thread about its companion.
-enum Progress {
+enum CompanionMessage {
     /// A checkpoint of the one that is waited for. The companion waits for the answer, without which it stops.
     Checkpoint(Checkpoint, Sender<ControlFlow<()>>),
     /// The companion of a number has ended.
@@ -68,7 +68,7 @@ impl<'scope, 'env> CompanionThreads<'scope, 'env> {
             scope,
             scene,
             plan,
-            common: Arc::new(Common {
+            queue: Arc::new(CompanionQueue {
                 next: Mutex::new((first, from)),
                 awaited: AtomicUsize::new(awaited),
                 stopped: AtomicBool::new(false),
@@ -82,13 +82,13 @@ impl<'scope, 'env> CompanionThreads<'scope, 'env> {
     /// Begins threads, at most one for each companion that no thread has taken, and as far as the system has any; none after the
     /// first wait.
     pub(super) fn begin(&self, threads: usize) {
-        let left = companions::count(self.scene).saturating_sub(self.common.next().0);
+        let left = companions::count(self.scene).saturating_sub(self.queue.next().0);
         for _ in 0..threads.min(left) {
             let Some(sender) = self.sender.clone() else {
                 return;
             };
-            let (common, scene, plan) = (Arc::clone(&self.common), self.scene, self.plan);
-            let solve = move || common.solve_all(scene, plan, &sender);
+            let (queue, scene, plan) = (Arc::clone(&self.queue), self.scene, self.plan);
+            let solve = move || queue.solve_all(scene, plan, &sender);
             // With fewer threads the same is solved, later.
             let _ = Builder::new().spawn_scoped(self.scope, solve);
         }
@@ -101,19 +101,19 @@ impl<'scope, 'env> CompanionThreads<'scope, 'env> {
         on: &mut dyn FnMut(Checkpoint) -> ControlFlow<()>,
     ) -> Option<Solved> {
         self.sender = None;
-        self.common.awaited.store(number, Ordering::Relaxed);
+        self.queue.awaited.store(number, Ordering::Relaxed);
         loop {
             if let Some(solved) = self.ended.remove(&number) {
                 return Some(solved);
             }
             match self.received.recv().ok()? {
-                Progress::Ended(number, solved) => {
+                CompanionMessage::Ended(number, solved) => {
                     self.ended.insert(number, *solved);
                 }
-                Progress::Checkpoint(checkpoint, answer) => {
+                CompanionMessage::Checkpoint(checkpoint, answer) => {
                     let flow = on(checkpoint);
                     if flow.is_break() {
-                        self.common.stop();
+                        self.queue.stop();
                     }
                     // A companion that does not wait for it has ended.
                     let _ = answer.send(flow);
@@ -124,17 +124,17 @@ impl<'scope, 'env> CompanionThreads<'scope, 'env> {
 
     /// The checkpoint of the first companion, if no thread has taken it.
     pub(super) fn take_checkpoint(&self) -> Option<Checkpoint> {
-        self.common.next().1.take()
+        self.queue.next().1.take()
     }
 }
 
 impl Drop for CompanionThreads<'_, '_> {
     fn drop(&mut self) {
-        self.common.stop();
+        self.queue.stop();
     }
 }
 
-impl Common {
+impl CompanionQueue {
     fn stop(&self) {
         self.stopped.store(true, Ordering::Relaxed);
     }
@@ -156,7 +156,7 @@ impl Common {
     }
 
     /// Solves one companion after the other until none is left.
-    fn solve_all(&self, scene: &Scene, plan: &EffectsPlan, sender: &Sender<Progress>) {
+    fn solve_all(&self, scene: &Scene, plan: &EffectsPlan, sender: &Sender<CompanionMessage>) {
         while !self.is_stopped() {
             let (number, from) = self.take_next();
             let Some(companion) = companions::companion(scene, number) else {
@@ -168,7 +168,7 @@ impl Common {
             };
             let mut observer = Watched {
                 number,
-                common: self,
+                queue: self,
                 sender,
             };
             let solved = run::by_plan(
@@ -178,7 +178,7 @@ impl Common {
                 &EarlierRuns::default(),
                 &mut observer,
             );
-            let ended = Progress::Ended(number, Box::new(solved));
+            let ended = CompanionMessage::Ended(number, Box::new(solved));
             if sender.send(ended).is_err() {
                 return;
             }
@@ -189,24 +189,24 @@ impl Common {
 /// Observes a companion.
 struct Watched<'a> {
     number: usize,
-    common: &'a Common,
-    sender: &'a Sender<Progress>,
+    queue: &'a CompanionQueue,
+    sender: &'a Sender<CompanionMessage>,
 }
 
 impl Observer for Watched<'_> {
     fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
-        if self.common.is_stopped() {
+        if self.queue.is_stopped() {
             return ControlFlow::Break(());
         }
         let Event::Checkpoint(run) = event else {
             return ControlFlow::Continue(());
         };
-        if self.common.awaited.load(Ordering::Relaxed) != self.number {
+        if self.queue.awaited.load(Ordering::Relaxed) != self.number {
             return ControlFlow::Continue(());
         }
         let (answer, answered) = channel();
-        let progress = Progress::Checkpoint(run.checkpoint(), answer);
-        let sent = self.sender.send(progress);
+        let message = CompanionMessage::Checkpoint(run.checkpoint(), answer);
+        let sent = self.sender.send(message);
         // A message that was not received is dropped with the run, and the channel of its answer too.
         let flow = sent.ok().and_then(|()| answered.recv().ok());
         flow.unwrap_or(ControlFlow::Break(()))

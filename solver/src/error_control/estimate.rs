@@ -14,7 +14,7 @@ const SAFETY: f64 = 1.25;
 
 /// Constants of the error estimate of one quantity.
 #[derive(Clone, Copy)]
-struct Constants {
+struct ConvergenceConstants {
     /// Order p of mesh and increments.
     order: f64,
     /// Least estimated error over the tolerance: runs that agree better do so by chance, the histories are compared between
@@ -26,18 +26,18 @@ struct Constants {
 /// their errors in the median. Orders of single scenes are not determined from their companions: coarse ones may differ by
 /// less than finer ones. A peak pressure changes by more from increment to increment: at least a tenth of what is allowed.
 /// Of the 100 scenes, 88 peaks are within their estimates with 0.2, 92 with 0.3.
-fn constants(quantity: Quantity) -> Constants {
+fn constants(quantity: Quantity) -> ConvergenceConstants {
     let (order, least) = match quantity {
         Quantity::WornArea => (1.5, 0.01),
         Quantity::WornDepth => (1.25, 0.01),
         Quantity::ScarHalfWidth => (1.1, 0.01),
         Quantity::PeakPressure | Quantity::ContactResistance => (1.0, 0.3),
     };
-    Constants { order, least }
+    ConvergenceConstants { order, least }
 }
 
 /// A criterion is reached by a depth, or by a resistance that follows from the width of the contact.
-const OF_LIFE: Constants = Constants {
+const OF_LIFE: ConvergenceConstants = ConvergenceConstants {
     order: 1.0,
     least: 0.01,
 };
@@ -123,7 +123,7 @@ impl Estimate<'_> {
     /// what skipped effects change.
     fn error(
         self,
-        Constants { order, least }: Constants,
+        ConvergenceConstants { order, least }: ConvergenceConstants,
         difference: impl Fn(&Compared, &Compared) -> Option<f64>,
     ) -> Option<ErrorParts> {
         let first = self.companions.first()?.as_ref()?;

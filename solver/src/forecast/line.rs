@@ -56,7 +56,7 @@ pub struct LineForecast {
 
 /// Counts of solves and condensations, and the nodes that are solved for together.
 #[derive(Debug, Clone, Copy)]
-struct Solves {
+struct SolveCounts {
     /// Solves of an increment for each followed section.
     each: f64,
     /// Condensations for each followed section.
@@ -88,7 +88,7 @@ pub fn line_forecast(scene: &Scene, layout: &Layout) -> Option<LineForecast> {
             Top::Rigid | Top::Pressure => RIGID_SOLVES,
             Top::Even => 1.0,
         };
-        let solves = Solves {
+        let solves = SolveCounts {
             each: share * each,
             share,
             planes: 1,
@@ -98,7 +98,7 @@ pub fn line_forecast(scene: &Scene, layout: &Layout) -> Option<LineForecast> {
     let extruded = ExtrudedScene::of(scene)?;
     let planes = extruded.node_planes();
     let section = Section::new(scene, layout, scene.motion, 1.0);
-    let solves = Solves {
+    let solves = SolveCounts {
         each: EXTRUDED_SOLVES,
         share: 1.0,
         planes,
@@ -112,7 +112,7 @@ fn forecast(
     layout: &Layout,
     mut sections: Vec<Section>,
     stations: usize,
-    solves: Solves,
+    solves: SolveCounts,
 ) -> LineForecast {
     let x = layout.bodies.of(layout.sizes.slave).contact_x();
     let mut forecast = LineForecast {

@@ -14,7 +14,7 @@ const EDGE: usize = 1;
 
 /// Statuses that the unknowns of a node allow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Form {
+enum AdmissibleStatuses {
     /// Open.
     Outside,
     /// This status.
@@ -32,17 +32,18 @@ pub(super) struct Partition {
     pub(super) unknowns: Vec<Unknown>,
     /// Number of unknowns of the core.
     pub(super) core: usize,
-    forms: Vec<Form>,
+    admissible: Vec<AdmissibleStatuses>,
 }
 
 impl Partition {
     /// Chooses the unknowns for the statuses of an iterate.
     pub(super) fn choose(&mut self, it: &Iterate) {
-        self.forms.clear();
-        self.forms.extend((0..it.status.len()).map(|i| form(it, i)));
+        self.admissible.clear();
+        self.admissible
+            .extend((0..it.status.len()).map(|i| admissible(it, i)));
         self.unknowns.clear();
-        for (node, form) in self.forms.iter().enumerate() {
-            if let Form::Core(status) = *form {
+        for (node, statuses) in self.admissible.iter().enumerate() {
+            if let AdmissibleStatuses::Core(status) = *statuses {
                 self.unknowns.push(Unknown::Pressure(node, status));
                 if status == Status::Stick {
                     self.unknowns.push(Unknown::Shear(node));
@@ -50,27 +51,29 @@ impl Partition {
             }
         }
         self.core = self.unknowns.len();
-        for (node, form) in self.forms.iter().enumerate() {
-            match *form {
-                Form::Edge(status) => self.unknowns.push(Unknown::Pressure(node, status)),
-                Form::Any => {
+        for (node, statuses) in self.admissible.iter().enumerate() {
+            match *statuses {
+                AdmissibleStatuses::Edge(status) => {
+                    self.unknowns.push(Unknown::Pressure(node, status));
+                }
+                AdmissibleStatuses::Any => {
                     self.unknowns.push(Unknown::Pressure(node, Status::Stick));
                     self.unknowns.push(Unknown::Shear(node));
                 }
-                Form::Outside | Form::Core(_) => {}
+                AdmissibleStatuses::Outside | AdmissibleStatuses::Core(_) => {}
             }
         }
     }
 
     /// Returns `true` if the unknowns allow the statuses of an iterate.
     pub(super) fn admits(&self, it: &Iterate) -> bool {
-        let admits = |(form, status): (&Form, &Status)| match *form {
-            Form::Outside => *status == Status::Open,
-            Form::Core(own) => *status == own,
-            Form::Edge(own) => *status == own || *status == Status::Open,
-            Form::Any => true,
+        let admits = |(statuses, status): (&AdmissibleStatuses, &Status)| match *statuses {
+            AdmissibleStatuses::Outside => *status == Status::Open,
+            AdmissibleStatuses::Core(own) => *status == own,
+            AdmissibleStatuses::Edge(own) => *status == own || *status == Status::Open,
+            AdmissibleStatuses::Any => true,
         };
-        self.forms.iter().zip(&it.status).all(admits)
+        self.admissible.iter().zip(&it.status).all(admits)
     }
 
     /// The load less the vertical forces of the unknowns, N/mm.
@@ -85,28 +88,28 @@ impl Partition {
 
     /// The status that a node's part of the wear is linearised in.
     pub(super) fn status(&self, it: &Iterate, node: usize) -> Status {
-        match self.forms[node] {
-            Form::Core(status) | Form::Edge(status) => status,
-            Form::Outside | Form::Any => it.status[node],
+        match self.admissible[node] {
+            AdmissibleStatuses::Core(status) | AdmissibleStatuses::Edge(status) => status,
+            AdmissibleStatuses::Outside | AdmissibleStatuses::Any => it.status[node],
         }
     }
 }
 
-fn form(it: &Iterate, node: usize) -> Form {
+fn admissible(it: &Iterate, node: usize) -> AdmissibleStatuses {
     let end = (node + EDGE + 1).min(it.status.len());
     let near = it.status[node.saturating_sub(EDGE)..end].iter();
     let mut closed = near.clone().filter(|status| **status != Status::Open);
     let Some(&status) = closed.next() else {
-        return Form::Outside;
+        return AdmissibleStatuses::Outside;
     };
     let is_stick_edge = closed.any(|other| *other != status);
     let is_contact_edge = near.clone().any(|status| *status == Status::Open);
     if is_stick_edge || (is_contact_edge && status == Status::Stick) {
-        Form::Any
+        AdmissibleStatuses::Any
     } else if is_contact_edge {
-        Form::Edge(status)
+        AdmissibleStatuses::Edge(status)
     } else {
-        Form::Core(status)
+        AdmissibleStatuses::Core(status)
     }
 }
 

@@ -6,9 +6,9 @@
 /// Nodes on either side of an edge that belong to the border.
 const EDGE: usize = 1;
 
-/// Place of a coupled node in the system.
+/// Block of the system that a coupled node belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Form {
+enum SystemBlock {
     /// Open.
     Outside,
     /// Closed.
@@ -24,46 +24,46 @@ pub(super) struct Partition {
     pub(super) nodes: Vec<usize>,
     /// Number of nodes of the core.
     pub(super) core: usize,
-    forms: Vec<Form>,
+    blocks: Vec<SystemBlock>,
 }
 
 impl Partition {
     /// Chooses the unknowns for the statuses of planes of so many nodes each.
     pub(super) fn choose(&mut self, is_closed: &[bool], nodes_of_plane: usize) {
-        self.forms.clear();
+        self.blocks.clear();
         for plane in is_closed.chunks_exact(nodes_of_plane) {
-            self.forms.extend((0..plane.len()).map(|i| {
+            self.blocks.extend((0..plane.len()).map(|i| {
                 let near = &plane[i.saturating_sub(EDGE)..(i + EDGE + 1).min(plane.len())];
                 let closed = near.iter().filter(|closed| **closed).count();
                 match closed {
-                    0 => Form::Outside,
-                    all if all == near.len() => Form::Core,
-                    _ => Form::Border,
+                    0 => SystemBlock::Outside,
+                    all if all == near.len() => SystemBlock::Core,
+                    _ => SystemBlock::Border,
                 }
             }));
         }
-        let forms = &self.forms;
-        let of = |form: Form| {
-            let nodes = forms
+        let blocks = &self.blocks;
+        let of = |block: SystemBlock| {
+            let nodes = blocks
                 .iter()
                 .enumerate()
-                .filter(move |(_, own)| **own == form);
+                .filter(move |(_, own)| **own == block);
             nodes.map(|(node, _)| node)
         };
         self.nodes.clear();
-        self.nodes.extend(of(Form::Core));
+        self.nodes.extend(of(SystemBlock::Core));
         self.core = self.nodes.len();
-        self.nodes.extend(of(Form::Border));
+        self.nodes.extend(of(SystemBlock::Border));
     }
 
     /// Returns `true` if the unknowns allow statuses.
     pub(super) fn admits(&self, is_closed: &[bool]) -> bool {
-        let admits = |(form, closed): (&Form, &bool)| match *form {
-            Form::Outside => !closed,
-            Form::Core => *closed,
-            Form::Border => true,
+        let admits = |(block, closed): (&SystemBlock, &bool)| match *block {
+            SystemBlock::Outside => !closed,
+            SystemBlock::Core => *closed,
+            SystemBlock::Border => true,
         };
-        self.forms.len() == is_closed.len() && self.forms.iter().zip(is_closed).all(admits)
+        self.blocks.len() == is_closed.len() && self.blocks.iter().zip(is_closed).all(admits)
     }
 }
 
