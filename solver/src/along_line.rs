@@ -6,7 +6,7 @@ mod record;
 use serde::{Deserialize, Serialize};
 
 use crate::sides::{Side, Sides};
-pub(crate) use record::{LineRecord, Placed};
+pub(crate) use record::{LineRecord, PositionContacts};
 
 /// Where a section lies on its line.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

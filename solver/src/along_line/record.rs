@@ -6,7 +6,7 @@ use crate::schedule::step::Position;
 
 /// Contacts of all sections at a named position.
 #[derive(Debug, Clone)]
-pub(crate) struct Placed {
+pub(crate) struct PositionContacts {
     pub(crate) position: Position,
     pub(crate) slider_x: f64,
     pub(crate) contacts: Vec<ContactState>,
@@ -16,12 +16,20 @@ pub(crate) struct Placed {
     pub(crate) imbalance: f64,
 }
 
+impl PositionContacts {
+    /// Removes the contacts at a position from others, if they are among them.
+    pub(crate) fn take(others: &mut Vec<Self>, position: Position) -> Option<Self> {
+        let found = others.iter().position(|at| at.position == position);
+        found.map(|found| others.swap_remove(found))
+    }
+}
+
 /// Record of a computed cycle.
 #[derive(Debug, Default)]
 pub(crate) struct LineRecord {
     /// Force of the slider along the motion, N, and that over the length of the line.
     pub(crate) friction_loop: FrictionLoop,
-    pub(crate) placed: Vec<Placed>,
+    pub(crate) positions: Vec<PositionContacts>,
 }
 
 impl LineRecord {
@@ -35,8 +43,8 @@ impl LineRecord {
 
     /// The contacts at the neutral position of each section, where it was passed.
     pub(crate) fn neutral(&self) -> &[Neutral] {
-        let mut placed = self.placed.iter();
-        let neutral = placed.find(|placed| placed.position == Position::Neutral);
-        neutral.map_or(&[], |placed| &placed.found)
+        let mut positions = self.positions.iter();
+        let neutral = positions.find(|contacts| contacts.position == Position::Neutral);
+        neutral.map_or(&[], |contacts| &contacts.found)
     }
 }

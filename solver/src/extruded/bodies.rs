@@ -2,7 +2,7 @@
 
 use super::error::ExtrudedError;
 use super::scene::ExtrudedScene;
-use super::state::Common;
+use super::state::CommonPlaneState;
 use crate::ale;
 use crate::condensation::{ExtrudedOperators, condense_extruded};
 use crate::mesh::{NodePlanes, PrismMesh};
@@ -84,7 +84,7 @@ impl Bodies {
     ///
     /// # Errors
     /// [`ExtrudedError`] if it cannot be meshed or condensed.
-    pub(super) fn follow(&mut self, common: &Common) -> Result<(), ExtrudedError> {
+    pub(super) fn follow(&mut self, common: &CommonPlaneState) -> Result<(), ExtrudedError> {
         if self.built == common.built && self.widenings == common.widenings {
             return Ok(());
         }

@@ -3,7 +3,7 @@
 use super::bodies::Bodies;
 use super::state::{Effort, PlaneState, Planes};
 use crate::ale::Spines;
-use crate::along_line::{LineRecord, Placed};
+use crate::along_line::{LineRecord, PositionContacts};
 use crate::contact::planes::{Extruded, ExtrudedSolver, PlaneWear, Slide, Solved};
 use crate::contact::{self, ContactError, ContactState, Pair, Solver, Surfaces, WarmStart, Work};
 use crate::cycle::step_control::RETRY;
@@ -124,14 +124,11 @@ impl Contact {
             let force_n = bodies.width_mm() * self.tangential_force(bodies);
             record.push(step.slider_x, force_n, bodies.width_mm());
             if let Some(position) = step.at {
-                let found = replayed
-                    .iter()
-                    .position(|placed: &Placed| placed.position == position);
-                let placed = found.map(|found| replayed.swap_remove(found));
-                let placed = placed.unwrap_or_else(|| self.placed(bodies, position));
+                let contacts = PositionContacts::take(&mut replayed, position);
+                let contacts = contacts.unwrap_or_else(|| self.contacts_at(bodies, position));
                 let worst = &mut self.effort.checks.force_balance_present_normals;
-                *worst = worst.max(placed.imbalance);
-                record.placed.push(placed);
+                *worst = worst.max(contacts.imbalance);
+                record.positions.push(contacts);
             }
         }
         if cycles > 0.0 {
@@ -146,7 +143,12 @@ impl Contact {
     }
 
     /// The contacts at the end of steps that wear as a single cycle, from a copy of the state; nothing where one has no solution.
-    fn replay(&mut self, bodies: &Bodies, steps: &[Step], plan: &ReplayPlan) -> Option<Placed> {
+    fn replay(
+        &mut self,
+        bodies: &Bodies,
+        steps: &[Step],
+        plan: &ReplayPlan,
+    ) -> Option<PositionContacts> {
         let (before, effort) = (self.planes.clone(), self.effort);
         let last = steps.last()?;
         let position = last.at?;
@@ -155,14 +157,14 @@ impl Contact {
         let lead_in = steps.iter().map(|step| (step.slider_x, 1));
         let mut parts = lead_in.chain(smoothing);
         let replayed = parts.all(|(to, count)| self.replay_to(bodies, to, count));
-        let placed = replayed.then(|| self.placed(bodies, position));
+        let contacts = replayed.then(|| self.contacts_at(bodies, position));
         self.planes = before;
         // Replays count as work, and not as increments of the cycle.
         self.effort = Effort {
             work: self.effort.work,
             ..effort
         };
-        placed
+        contacts
     }
 
     /// Slides to a place in equal parts with the wear of a single cycle; returns whether all have a solution.
@@ -179,7 +181,7 @@ impl Contact {
     }
 
     /// The contacts of the present increment.
-    pub(super) fn placed(&mut self, bodies: &Bodies, position: Position) -> Placed {
+    pub(super) fn contacts_at(&mut self, bodies: &Bodies, position: Position) -> PositionContacts {
         let pair = &Pair {
             operators: &bodies.operators.sections,
             interface: self.interface,
@@ -203,7 +205,7 @@ impl Contact {
             });
         }
         let load = self.planes.contacts[0].load(&self.interface);
-        Placed {
+        PositionContacts {
             position,
             slider_x: self.slider_x(),
             contacts: self.planes.contacts.clone(),
@@ -300,10 +302,8 @@ impl Contact {
             cycles,
             starts: starts.as_deref(),
         };
-        let (last, next) = (&self.planes.contacts, &mut self.next);
-        let solved =
-            self.solver
-                .advance(&extruded, &surfaces, last, slide, next, &mut self.worn)?;
+        let (last, next, worn) = (&self.planes.contacts, &mut self.next, &mut self.worn);
+        let solved = (self.solver).advance(&extruded, &surfaces, last, slide, next, worn)?;
         for (state, worn) in self.planes.states.iter().zip(&self.worn) {
             let recession = worn.recession.as_slices();
             wear_limit::check(&self.spines, &state.depth, to, worn.first, recession)?;

@@ -7,7 +7,7 @@ use super::bodies::Bodies;
 use super::cycle::Contact;
 use super::error::ExtrudedError;
 use super::scene::ExtrudedScene;
-use super::state::{Common, ExtrudedState};
+use super::state::{CommonPlaneState, ExtrudedState};
 use crate::along_line::LineRecord;
 use crate::contact::ContactError;
 use crate::effects::EffectsPlan;
@@ -26,7 +26,7 @@ pub(crate) struct ExtrudedIntegrator {
     plane: Scene,
     bodies: Bodies,
     contact: Contact,
-    common: Common,
+    common: CommonPlaneState,
     /// Record of the last computed cycle.
     record: LineRecord,
 }
@@ -45,9 +45,9 @@ impl ExtrudedIntegrator {
             run.widen_or(0, source)?;
         }
         run.common.unworn_half_width = run.contact.planes.mean_half_width;
-        let placed = vec![run.contact.placed(&run.bodies, Position::Neutral)];
+        let positions = vec![run.contact.contacts_at(&run.bodies, Position::Neutral)];
         run.take_record(LineRecord {
-            placed,
+            positions,
             ..LineRecord::default()
         });
         run.common.last = run.report(0, &run.paths(), 0, 0);
@@ -83,7 +83,7 @@ impl ExtrudedIntegrator {
             plane,
             contact: Contact::new(&bodies),
             bodies,
-            common: Common::default(),
+            common: CommonPlaneState::default(),
             record: LineRecord::default(),
         })
     }

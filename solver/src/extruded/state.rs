@@ -38,7 +38,7 @@ pub(super) struct Planes {
 
 /// State that all planes share between two cycles.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Common {
+pub(super) struct CommonPlaneState {
     /// Half-width of the unworn contact, mm.
     pub(super) unworn_half_width: f64,
     pub(super) jump: JumpControl,
@@ -70,7 +70,7 @@ pub(super) struct Effort {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ExtrudedState {
     pub(super) planes: Planes,
-    pub(super) common: Common,
+    pub(super) common: CommonPlaneState,
     pub(super) effort: Effort,
 }
 

@@ -4,7 +4,7 @@
 //! the contact's indentation, and shortened where the last one has left a larger correction than the one before.
 
 use super::coupling::Coupling;
-use super::height::{Found, Height};
+use super::height::{Height, HeightSolution};
 use super::section::{Increment, Station};
 use super::top::{BALANCED, Carrier, MOST_ITERATIONS, Unsolved, indentation, solve};
 use crate::linear::DenseLu;
@@ -35,7 +35,7 @@ impl Carrier {
         stations: &mut [Station],
         last: &Height,
         increment: Increment,
-    ) -> Result<Found, Unsolved> {
+    ) -> Result<HeightSolution, Unsolved> {
         let mut v = last.predicted(increment.cycles);
         let mut lifts = last.predicted_lifts(coupling.order(), increment.cycles);
         let mut raised: Option<Vec<f64>> = None;
@@ -61,7 +61,7 @@ impl Carrier {
             };
             let off = correction.of_load.max(imbalance.abs() / self.force_n);
             if off <= BALANCED && correction.of_height <= PLACED * largest {
-                return Ok(Found {
+                return Ok(HeightSolution {
                     mm: v,
                     lifts,
                     imbalance: imbalance.abs() / self.force_n,

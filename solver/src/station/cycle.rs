@@ -2,9 +2,9 @@
 
 use super::height::Height;
 use super::section::{Increment, Station};
-use super::state::{Common, StationState};
+use super::state::{CommonLineState, StationState};
 use super::top::{Carrier, Unsolved};
-use crate::along_line::{LineRecord, Placed};
+use crate::along_line::{LineRecord, PositionContacts};
 use crate::cycle::WarmStarts;
 use crate::cycle::step_control::RETRY;
 use crate::number::real;
@@ -15,7 +15,7 @@ use crate::schedule::step::{Position, Step};
 pub(super) struct Line {
     pub(super) carrier: Carrier,
     pub(super) stations: Vec<Station>,
-    pub(super) common: Common,
+    pub(super) common: CommonLineState,
 }
 
 /// A copy of what increments change.
@@ -66,14 +66,11 @@ impl Line {
             }
             record.push(step.slider_x, self.tangential_force_n(), self.length_mm());
             if let Some(position) = step.at {
-                let found = replayed
-                    .iter()
-                    .position(|placed: &Placed| placed.position == position);
-                let placed = found.map(|found| replayed.swap_remove(found));
-                let placed = placed.unwrap_or_else(|| self.placed(position));
+                let contacts = PositionContacts::take(&mut replayed, position);
+                let contacts = contacts.unwrap_or_else(|| self.contacts_at(position));
                 let worst = &mut self.common.imbalance;
-                *worst = worst.max(placed.imbalance);
-                record.placed.push(placed);
+                *worst = worst.max(contacts.imbalance);
+                record.positions.push(contacts);
             }
         }
         if cycles > 0.0 {
@@ -88,7 +85,7 @@ impl Line {
     }
 
     /// The contacts at the end of steps that wear as a single cycle, from a copy of the state; nothing where one has no solution.
-    fn replay(&mut self, steps: &[Step], plan: &ReplayPlan) -> Option<Placed> {
+    fn replay(&mut self, steps: &[Step], plan: &ReplayPlan) -> Option<PositionContacts> {
         let before = self.snapshot();
         let last = steps.last()?;
         let position = last.at?;
@@ -97,11 +94,11 @@ impl Line {
         let lead_in = steps.iter().map(|step| (step.slider_x, 1));
         let mut parts = lead_in.chain(smoothing);
         let replayed = parts.all(|(to, count)| self.replay_to(to, count));
-        let placed = replayed.then(|| self.placed(position));
+        let contacts = replayed.then(|| self.contacts_at(position));
         let (increments, iterations) = (self.common.increments, self.common.iterations);
         self.restore(&before);
         (self.common.increments, self.common.iterations) = (increments, iterations);
-        placed
+        contacts
     }
 
     /// Slides to a place in equal parts with the wear of a single cycle; returns whether all have a solution.
@@ -160,14 +157,14 @@ impl Line {
     }
 
     /// The contacts of the present increment.
-    pub(super) fn placed(&mut self, position: Position) -> Placed {
+    pub(super) fn contacts_at(&mut self, position: Position) -> PositionContacts {
         let stations = self.stations.iter_mut();
         let forces =
             stations.map(|station| station.place.weight_mm * station.force_with_present_normals());
         let force_n: f64 = forces.sum();
         let expected_n = self.carrier.present_n(&self.stations, &self.common.height);
         let stations = self.stations.iter();
-        Placed {
+        PositionContacts {
             position,
             slider_x: self.common.slider_x,
             contacts: stations

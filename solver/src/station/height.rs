@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// A height that carries the force.
-pub(super) struct Found {
+pub(super) struct HeightSolution {
     pub(super) mm: f64,
     /// Lifts of coupled sections over it, mm; none of others.
     pub(super) lifts: Vec<f64>,
@@ -59,7 +59,7 @@ impl Height {
     }
 
     /// Takes the heights of an increment that stands for so many cycles.
-    pub(super) fn take(&mut self, found: Found, cycles: f64) {
+    pub(super) fn take(&mut self, found: HeightSolution, cycles: f64) {
         self.lift_changes.clear();
         if self.lifts.is_empty() {
             self.lift_changes.resize(found.lifts.len(), 0.0);

@@ -14,7 +14,7 @@ use super::place::places;
 use super::scene::{StationScene, intervals_within};
 use super::section::{Increment, Station};
 use super::side_by_side::for_each;
-use super::state::{Common, LineState, StationState};
+use super::state::{CommonLineState, LineState, StationState};
 use super::top::{Carrier, Unsolved};
 use crate::along_line::LineRecord;
 use crate::contact::ContactState;
@@ -62,7 +62,7 @@ impl LineIntegrator {
         let mut integrator = Self::unloaded(scene, plan)?;
         let threads = Arc::clone(&integrator.threads);
         threads.within(|| integrator.apply_load())?;
-        integrator.record.placed = vec![integrator.line.placed(Position::Neutral)];
+        integrator.record.positions = vec![integrator.line.contacts_at(Position::Neutral)];
         integrator.line.common.last = integrator.report(0, &integrator.paths(), 0, 0);
         let state = integrator.state();
         Ok((integrator, state))
@@ -114,7 +114,7 @@ impl LineIntegrator {
                     spring_n_per_mm: spring * scene.line.length_mm(),
                 },
                 stations: stations.collect(),
-                common: Common::default(),
+                common: CommonLineState::default(),
             },
             scene: scene.clone(),
             plane,

@@ -41,7 +41,7 @@ pub(super) struct StationState {
 
 /// State that all stations share.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Common {
+pub(super) struct CommonLineState {
     /// Height of a rigid top.
     pub(super) height: Height,
     /// Displacement of the slider, mm.
@@ -66,7 +66,7 @@ pub(super) struct Common {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LineState {
     pub(super) stations: Vec<StationState>,
-    pub(super) common: Common,
+    pub(super) common: CommonLineState,
 }
 
 impl StationState {

@@ -7,7 +7,7 @@
 //! v: a step that leaves the interval in which its sign changes is replaced by a bisection, which also finds a contact that no section has.
 
 use super::coupling::Coupling;
-use super::height::{Found, Height};
+use super::height::{Height, HeightSolution};
 use super::section::{Increment, Station};
 use super::side_by_side::for_each;
 use crate::contact::ContactError;
@@ -113,7 +113,7 @@ impl Carrier {
         stations: &mut [Station],
         last: &Height,
         increment: Increment,
-    ) -> Result<Found, Unsolved> {
+    ) -> Result<HeightSolution, Unsolved> {
         let mut v = last.predicted(increment.cycles);
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         let (mut raised, mut found_n, mut beyond) = (None, 0.0, 0.0);
@@ -130,7 +130,7 @@ impl Carrier {
             let imbalance = force - self.force_at(last, v);
             per_height -= last.reference.map_or(0.0, |_| self.spring_n_per_mm);
             if imbalance.abs() <= BALANCED * self.force_n {
-                return Ok(Found {
+                return Ok(HeightSolution {
                     mm: v,
                     lifts: Vec::new(),
                     imbalance: imbalance.abs() / self.force_n,

@@ -157,8 +157,8 @@ impl ExtrudedIntegrator {
         &self,
         plane: usize,
     ) -> impl Iterator<Item = (Position, f64, &ContactState)> {
-        let placed = self.record.placed.iter();
-        placed.map(move |placed| (placed.position, placed.slider_x, &placed.contacts[plane]))
+        let positions = self.record.positions.iter();
+        positions.map(move |at| (at.position, at.slider_x, &at.contacts[plane]))
     }
 
     /// Pressures at the nodes of the body that carries them, plane by plane, MPa.
@@ -179,9 +179,11 @@ impl ExtrudedIntegrator {
     }
 
     /// Contacts of all planes at the named positions of the last computed cycle.
-    pub(crate) fn placed(&self) -> impl Iterator<Item = (Position, &[ContactState])> {
-        let placed = self.record.placed.iter();
-        placed.map(|placed| (placed.position, &placed.contacts[..]))
+    pub(crate) fn contacts_at_positions(
+        &self,
+    ) -> impl Iterator<Item = (Position, &[ContactState])> {
+        let positions = self.record.positions.iter();
+        positions.map(|at| (at.position, &at.contacts[..]))
     }
 
     /// The body that carries the tractions.

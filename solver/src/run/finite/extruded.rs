@@ -59,7 +59,6 @@ impl Sections for ExtrudedIntegrator {
             return Ok(Vec::new());
         };
         let (planes, models, operators) = self.condensed();
-        let placed = self.placed();
         Ok(fields::extruded(&ExtrudedSections {
             shape: *shape,
             planes,
@@ -67,7 +66,7 @@ impl Sections for ExtrudedIntegrator {
             operators,
             at: last.stations.iter().map(|plane| plane.at).collect(),
             depths: self.depths().collect(),
-            contacts: placed.collect(),
+            contacts: self.contacts_at_positions().collect(),
         })?)
     }
 

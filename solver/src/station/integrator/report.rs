@@ -116,8 +116,8 @@ impl LineIntegrator {
         &self,
         station: usize,
     ) -> impl Iterator<Item = (Position, f64, &ContactState)> {
-        let placed = self.record.placed.iter();
-        placed.map(move |placed| (placed.position, placed.slider_x, &placed.contacts[station]))
+        let positions = self.record.positions.iter();
+        positions.map(move |at| (at.position, at.slider_x, &at.contacts[station]))
     }
 
     /// The body that carries the tractions.
