@@ -82,7 +82,7 @@ fn off(section: &SectionFields, plane: &BodyFields) -> f64 {
 
 /// Integral of the pressure across a section, N/mm.
 fn carried(section: &SectionFields, surface: &[usize]) -> f64 {
-    let nodes = surface.iter().zip(&section.carried);
+    let nodes = surface.iter().zip(&section.surface_fields);
     let nodes: Vec<(f64, f64)> = nodes
         .map(|(node, carried)| (section.nodes[*node][0], carried.pressure_mpa))
         .collect();

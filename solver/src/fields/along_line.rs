@@ -16,7 +16,7 @@ use rayon::iter::{
 
 use super::FieldsError;
 use super::common_mesh::CommonMesh;
-use super::tractions::{SurfaceFields, SurfaceNodes, carried, slip_sign};
+use super::tractions::{SurfaceFields, SurfaceNodes, slip_sign, surface_fields};
 use super::{BodyFields, Stress, antiplane, recover};
 use crate::ale;
 use crate::along_line::Along;
@@ -65,7 +65,7 @@ pub struct SectionFields {
     /// Smallest determinant of the Jacobian over its mean, for every element.
     pub quality: Vec<f64>,
     /// Fields of the nodes on the contact surface, in the order of `surface`.
-    pub carried: Vec<SurfaceFields>,
+    pub surface_fields: Vec<SurfaceFields>,
 }
 
 /// A section in its state.
@@ -117,7 +117,7 @@ struct SectionAtPosition<'a> {
     contact: &'a ContactState,
     /// Number of the zone of each body that holds the contact.
     zone: Sides<usize>,
-    carried: Sides<Vec<SurfaceFields>>,
+    surface_fields: Sides<Vec<SurfaceFields>>,
 }
 
 impl<'a> SectionAtPosition<'a> {
@@ -134,7 +134,7 @@ impl<'a> SectionAtPosition<'a> {
             section,
             contact,
             zone,
-            carried: carried(
+            surface_fields: surface_fields(
                 &section.condensed.operators,
                 &section.model.interface,
                 section.depth,
@@ -199,9 +199,9 @@ impl<'a> SectionAtPosition<'a> {
         let lengths = nodes
             .clone()
             .map(|i| operators.widths[i] * slopes[i].hypot(1.0));
-        let carried = self.carried.of(side)[nodes].iter().zip(lengths);
-        let force: Vec<f64> = carried
-            .map(|(carried, length)| length * carried.shear_mpa[2])
+        let surface_fields = self.surface_fields.of(side)[nodes].iter().zip(lengths);
+        let force: Vec<f64> = surface_fields
+            .map(|(surface_fields, length)| length * surface_fields.shear_mpa[2])
             .collect();
         // Without a part of the friction in the contact nothing deforms by it.
         let deforms = self.section.model.interface.tangential != Tangential::Omitted;
@@ -243,10 +243,10 @@ fn swept(
             displacement_mm: common.values(zone, &displacement, between),
             stress: common.values(zone, &stress, Stress::towards),
             quality: mesh.scaled_jacobians()?,
-            carried: on_surface
+            surface_fields: on_surface
                 .contact
                 .iter()
-                .map(|&i| placed.carried.of(side)[i])
+                .map(|&i| placed.surface_fields.of(side)[i])
                 .collect(),
         })
     };

@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use super::FieldsError;
 use super::along_line::{LineFields, SectionFields, SweptFields};
-use super::tractions::{SurfaceFields, SurfaceNodes, carried};
+use super::tractions::{SurfaceFields, SurfaceNodes, surface_fields};
 use super::{Stress, prisms};
 use crate::ale;
 use crate::along_line::Along;
@@ -42,13 +42,13 @@ pub(crate) struct ExtrudedSections<'a> {
 /// # Errors
 /// [`FieldsError`] if a present surface would invert an element, or a mesh cannot be factored.
 pub(crate) fn extruded(bodies: &ExtrudedSections<'_>) -> Result<Vec<LineFields>, FieldsError> {
-    let carried: Vec<Vec<Sides<Vec<SurfaceFields>>>> = bodies
+    let surface_fields: Vec<Vec<Sides<Vec<SurfaceFields>>>> = bodies
         .contacts
         .iter()
-        .map(|(_, contacts)| bodies.carried(contacts))
+        .map(|(_, contacts)| bodies.surface_fields(contacts))
         .collect();
-    let slider = bodies.of_side(Side::Slider, &carried)?;
-    let receptacle = bodies.of_side(Side::Receptacle, &carried)?;
+    let slider = bodies.of_side(Side::Slider, &surface_fields)?;
+    let receptacle = bodies.of_side(Side::Receptacle, &surface_fields)?;
     let both = bodies
         .contacts
         .iter()
@@ -68,11 +68,11 @@ pub(crate) fn extruded(bodies: &ExtrudedSections<'_>) -> Result<Vec<LineFields>,
 
 impl ExtrudedSections<'_> {
     /// Surface fields of the contact nodes of both bodies in each plane; nothing slips along the width.
-    fn carried(&self, contacts: &[ContactState]) -> Vec<Sides<Vec<SurfaceFields>>> {
+    fn surface_fields(&self, contacts: &[ContactState]) -> Vec<Sides<Vec<SurfaceFields>>> {
         let (operators, interface) = (&self.operators.sections, &self.models[0].interface);
         let planes = contacts.iter().zip(&self.depths);
         planes
-            .map(|(contact, depth)| carried(operators, interface, depth, contact, 0.0))
+            .map(|(contact, depth)| surface_fields(operators, interface, depth, contact, 0.0))
             .collect()
     }
 
@@ -88,7 +88,7 @@ impl ExtrudedSections<'_> {
     fn of_side(
         &self,
         side: Side,
-        carried: &[Vec<Sides<Vec<SurfaceFields>>>],
+        surface_fields: &[Vec<Sides<Vec<SurfaceFields>>>],
     ) -> Result<Vec<SweptFields>, FieldsError> {
         let contacts = self.contacts.iter().map(|(_, contacts)| contacts);
         let zones: Vec<usize> = contacts.map(|contacts| self.zone(side, contacts)).collect();
@@ -102,7 +102,7 @@ impl ExtrudedSections<'_> {
             let body = InteriorOfZone::of(self, side, zone)?;
             for number in placed {
                 let contacts = self.contacts[number].1;
-                fields.push((number, body.swept(contacts, &carried[number])?));
+                fields.push((number, body.swept(contacts, &surface_fields[number])?));
             }
         }
         fields.sort_by_key(|(number, _)| *number);
@@ -150,7 +150,7 @@ impl<'a> InteriorOfZone<'a> {
     fn swept(
         &self,
         contacts: &[ContactState],
-        carried: &[Sides<Vec<SurfaceFields>>],
+        surface_fields: &[Sides<Vec<SurfaceFields>>],
     ) -> Result<SweptFields, FieldsError> {
         let (displacement, stress) = self.deformed(contacts);
         let zone = self.zone(0);
@@ -172,7 +172,7 @@ impl<'a> InteriorOfZone<'a> {
             };
             let places = mesh.coordinates().into_iter();
             let moved = displacement[range.clone()].iter();
-            let carried = carried[plane].of(self.side);
+            let surface_fields = surface_fields[plane].of(self.side);
             let is_middle = plane + 1 == contacts.len();
             let stress = stress[range].iter().map(|stress| {
                 if is_middle {
@@ -186,7 +186,11 @@ impl<'a> InteriorOfZone<'a> {
                 displacement_mm: moved.map(|[x, y, z]| [*x, *y, -z]).collect(),
                 stress: stress.collect(),
                 quality: mesh.scaled_jacobians()?,
-                carried: on_surface.contact.iter().map(|&i| carried[i]).collect(),
+                surface_fields: on_surface
+                    .contact
+                    .iter()
+                    .map(|&i| surface_fields[i])
+                    .collect(),
             })
         };
         let sections: Result<_, FieldsError> = (0..contacts.len()).rev().map(section).collect();

@@ -63,7 +63,7 @@ pub(super) fn slip_sign(shape: LineShape, at: Along, position: Position) -> f64 
 }
 
 /// Wear and tractions at the contact nodes of both bodies. Those of the slave are known; the master's are interpolated between them.
-pub(super) fn carried(
+pub(super) fn surface_fields(
     operators: &Operators,
     interface: &Interface,
     depth: &Sides<Vec<f64>>,

@@ -157,7 +157,7 @@ fn on_surface(
     surface: &[usize],
     of: impl Fn(&solver::fields::SurfaceFields) -> f64,
 ) -> f64 {
-    let nodes = surface.iter().zip(&section.carried);
+    let nodes = surface.iter().zip(&section.surface_fields);
     trapezoidal(
         nodes
             .map(|(node, carried)| (section.nodes[*node][0], of(carried)))

@@ -221,7 +221,7 @@ fn on_surface<const N: usize>(
     for (plane, body, section) in sections(bodies, planes) {
         let first = values.len();
         values.resize(first + N * section.nodes.len(), 0.0);
-        for (node, carried) in body.surface.iter().zip(&section.carried) {
+        for (node, carried) in body.surface.iter().zip(&section.surface_fields) {
             values[first + N * node..][..N].copy_from_slice(&of(plane, carried));
         }
     }

@@ -25,7 +25,7 @@ fn fields(shape: LineShape, at: Vec<Along>) -> LineFields {
             displacement_mm: vec![[0.0; 3]; 6],
             stress: vec![Stress::default(); 6],
             quality: vec![1.0; 3],
-            carried: vec![SurfaceFields::default(); 3],
+            surface_fields: vec![SurfaceFields::default(); 3],
         };
         SweptFields {
             cells: vec![
