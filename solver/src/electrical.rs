@@ -124,14 +124,7 @@ impl ElectricalState {
     }
 }
 
-/// The state before and after a computed cycle.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct ElectricalChange<'a> {
-    pub(crate) before: &'a ElectricalState,
-    pub(crate) after: &'a ElectricalState,
-}
-
-impl ElectricalChange<'_> {
+impl Change<&ElectricalState> {
     /// The resistances before and after, mOhm, if both are computed.
     pub(crate) fn total_mohm(self) -> Option<Change<f64>> {
         let both = self.before.total_mohm().zip(self.after.total_mohm());

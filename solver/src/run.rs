@@ -13,11 +13,11 @@ use std::ops::ControlFlow;
 
 use crate::SolveError;
 use crate::ale::{self, Spines};
+use crate::change::Change;
 use crate::checkpoint::{Checkpoint, CheckpointMismatch, EarlierRuns, Resumable, SectionRun};
 use crate::condensation::{self, Condensed};
 use crate::cycle::{CycleRecord, Integrator};
 use crate::effects::{self, EffectsPlan};
-use crate::electrical::ElectricalChange;
 use crate::model::{self, Model};
 use crate::observer::{Event, Observer, Phase};
 use crate::record::{self, Exposed, Outcome, Summary};
@@ -216,7 +216,7 @@ fn integrate(
                 before: &before,
                 after: &run.state,
             };
-            let change = ElectricalChange {
+            let change = Change {
                 before: &electrical,
                 after: &run.electrical,
             };

@@ -256,10 +256,10 @@ fn follows_friction(scene: &Scene, effect: Effect) -> bool {
 pub(super) fn required_by_run(cycle: u64, value: Option<f64>) -> String {
     match value {
         Some(value) => format!(
-            "called for by the run: {} after cycle {cycle}",
+            "required by the run: {} after cycle {cycle}",
             percent(value)
         ),
-        None => format!("called for by the run: no solution without it after cycle {cycle}"),
+        None => format!("required by the run: no solution without it after cycle {cycle}"),
     }
 }
 

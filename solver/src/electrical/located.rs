@@ -1,6 +1,7 @@
 //! Where in a computed cycle something happens to the contact: the first part of the cycle after which it has.
 
-use super::{ElectricalChange, ElectricalState, Evaluation, Touching};
+use super::{ElectricalState, Evaluation, Touching};
+use crate::change::Change;
 use crate::sides::Side;
 
 /// Halvings of the cycle: to 1e-9 of it.
@@ -31,7 +32,7 @@ impl Evaluation<'_> {
     pub(crate) fn part_at(
         &self,
         limit_mohm: f64,
-        change: ElectricalChange<'_>,
+        change: Change<&ElectricalState>,
         during: impl Fn(f64) -> Touching,
     ) -> f64 {
         let mut state = ElectricalState {

@@ -1,6 +1,7 @@
 //! Resistances of contacts with closed solutions.
 
 use super::*;
+use crate::change::Change;
 use crate::law::resistance::{Deformation, Growth};
 use crate::scene::{Metal, Spots};
 
@@ -248,7 +249,7 @@ fn a_limit_of_a_jump_is_reached_where_the_metal_is_exposed() {
     let (clean, covered) = (before.total_mohm(), after.total_mohm());
     let (clean, covered) = (clean.expect("computed"), covered.expect("computed"));
     assert!(covered > 1e3 * clean, "{clean} {covered}");
-    let change = ElectricalChange {
+    let change = Change {
         before: &before,
         after: &after,
     };

@@ -12,11 +12,12 @@ use std::ops::ControlFlow;
 
 use super::resistance::{self, RequiredAction};
 use crate::SolveError;
+use crate::change::Change;
 use crate::checkpoint::{
     CheckpointMismatch, EarlierRuns, ExtrudedRun, FiniteRun, LineRun, PointRun,
 };
 use crate::effects::EffectsPlan;
-use crate::electrical::{ElectricalChange, ElectricalState};
+use crate::electrical::ElectricalState;
 use crate::extruded::ExtrudedIntegrator;
 use crate::observer::{Event, Observer, Phase};
 use crate::point::PointIntegrator;
@@ -184,7 +185,7 @@ fn integrate<C: Contact>(
             &run.state,
             &mut run.electrical,
         );
-        let change = ElectricalChange {
+        let change = Change {
             before: &electrical_before,
             after: &run.electrical,
         };

@@ -1,10 +1,11 @@
 //! The resistance of the contact in a run.
 
+use crate::change::Change;
 use crate::checkpoint::SectionRun;
 use crate::condensation::Condensed;
 use crate::cycle::CycleState;
 use crate::effects::{Crossing, EffectsPlan};
-use crate::electrical::{ElectricalChange, ElectricalState, Evaluation, Touching};
+use crate::electrical::{ElectricalState, Evaluation, Touching};
 use crate::model::Model;
 use crate::record::{CycleRange, Life, unreached};
 use crate::run::computed::{Computed, UNLIMITED};
@@ -51,7 +52,7 @@ pub(super) fn update(
     evaluation.update(&mut run.electrical, |part| {
         computed.contact(part, UNLIMITED)
     });
-    let change = ElectricalChange {
+    let change = Change {
         before: &electrical,
         after: &run.electrical,
     };
@@ -75,7 +76,7 @@ pub(super) fn required_action(
     scene: &Scene,
     plan: &EffectsPlan,
     CycleRange { from, to }: CycleRange,
-    change: ElectricalChange<'_>,
+    change: Change<&ElectricalState>,
 ) -> Option<RequiredAction> {
     let electrical = scene.conduction.known()?;
     let resistance = change.total_mohm()?;
@@ -92,7 +93,7 @@ pub(super) fn push_life(
     scene: &Scene,
     evaluation: &Evaluation<'_>,
     cycles: CycleRange,
-    change: ElectricalChange<'_>,
+    change: Change<&ElectricalState>,
     life: &mut Life,
     contact: impl Fn(f64, Sides<f64>) -> Touching,
 ) {
@@ -110,7 +111,7 @@ pub(super) fn push_life(
 /// The same of a section.
 pub(super) fn push_life_of_section(
     computed: Computed<'_>,
-    change: ElectricalChange<'_>,
+    change: Change<&ElectricalState>,
     life: &mut Life,
 ) {
     let Computed {

@@ -1,8 +1,9 @@
 //! The resistance of the contacts of half-spaces in a run.
 
 use super::contact::Contact;
+use crate::change::Change;
 use crate::checkpoint::FiniteRun;
-use crate::electrical::{ElectricalChange, ElectricalState, Evaluation};
+use crate::electrical::{ElectricalState, Evaluation};
 use crate::record::CycleRange;
 use crate::run::computed::{UNLIMITED, elapsed_s};
 use crate::run::resistance;
@@ -38,7 +39,7 @@ pub(super) fn push_life_by_resistance<C: Contact>(
         return;
     };
     let cycles = range::<C>(before, &run.state);
-    let change = ElectricalChange {
+    let change = Change {
         before: electrical,
         after: &run.electrical,
     };
