@@ -184,6 +184,16 @@ async fn answers(server: &Server, subjects: &Subjects) -> Value {
     ] {
         schemas.insert(schema.to_owned(), shown(sent(server, &path, &body).await));
     }
+    let texts = texts(server, subjects, &schemas["Spec"]).await;
+    json!({"schemas": schemas, "texts": texts})
+}
+
+/// The first lines of the text of each path that has one.
+async fn texts(server: &Server, subjects: &Subjects, spec: &Value) -> Map<String, Value> {
+    let Subjects {
+        job, sweep, study, ..
+    } = subjects;
+    let results = format!("/v1/jobs/{job}/results");
     let mut texts = Map::new();
     for (template, path) in [
         ("/metrics", "/metrics".to_owned()),
@@ -221,11 +231,8 @@ async fn answers(server: &Server, subjects: &Subjects) -> Value {
         let lines: Vec<&str> = text.lines().take(LINES).collect();
         texts.insert(template.to_owned(), (lines.join("\n") + "\n").into());
     }
-    texts.insert(
-        "/v1/events".to_owned(),
-        changes(server, &schemas["Spec"]).await.into(),
-    );
-    json!({"schemas": schemas, "texts": texts})
+    texts.insert("/v1/events".to_owned(), changes(server, spec).await.into());
+    texts
 }
 
 /// The first change of the stream of all jobs, which does not end.
