@@ -1,4 +1,4 @@
-//! Names in a database, as it is verified. Each engine has the SQL.
+//! Names in a database, as it is verified. The SQL is in `store/sql/`.
 
 use api::results::ResultFile;
 use uuid::Uuid;

@@ -10,16 +10,19 @@ pub(super) use crate::store::postgres::PostgresStore as EngineStore;
 use crate::store::postgres::begin;
 pub(super) use crate::store::postgres::verify::is_copy;
 
+/// Engine, connection and row of sqlx.
 pub(super) type Engine = Postgres;
 pub(super) type Connection = sqlx::PgConnection;
 pub(super) type Row = sqlx::postgres::PgRow;
 /// An id has a type of its own.
 pub(super) type StoredId = Uuid;
 
+/// Returns an id as it is bound.
 pub(super) const fn stored_id(id: Uuid) -> StoredId {
     id
 }
 
+/// Returns an id that was read.
 pub(super) const fn read_id(stored: StoredId) -> Uuid {
     stored
 }
@@ -31,10 +34,12 @@ pub(super) const STORES_NUL: bool = false;
 
 /// Texts are compared byte by byte.
 pub(super) const COLLATION: &str = " COLLATE \"C\"";
+/// Functions of the largest and the smallest argument.
 pub(super) const GREATEST: &str = "greatest";
 pub(super) const LEAST: &str = "least";
 /// The planner orders joins by itself.
 pub(super) const JOIN_IN_ORDER: &str = "JOIN";
+/// Locks the rows that are read; the second one leaves out those that others have locked.
 pub(super) const FOR_UPDATE: &str = " FOR UPDATE";
 pub(super) const SKIP_LOCKED: &str = " FOR UPDATE SKIP LOCKED";
 /// The object of a row of `result_files`.
@@ -86,7 +91,7 @@ impl EngineStore {
         Ok((connection, now))
     }
 
-    /// Connections for reads that must not wait for those of users.
+    /// Connections for reads of workers and submissions, which must not wait for those of users.
     pub(super) fn unhindered(&self) -> &Pool<Engine> {
         &self.writer
     }

@@ -6,13 +6,12 @@ use sqlx::Row;
 use sqlx::postgres::{PgConnection, PgRow};
 use uuid::Uuid;
 
-use crate::store::postgres::{PostgresStore, begin};
+use crate::store::postgres::PostgresStore;
 use crate::store::results_to_move::{Stored, StoredFile, file_to_move};
 use crate::store::rows::StoredRow;
 use crate::store::stored_block::StoredBlock;
 use crate::store::{StoreError, StoredEvent};
 
-const READ: &str = "BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY";
 /// All rows are found by their keys. Without statistics, as in a new database, the server takes the events of 32 jobs for a large part of all, and reads
 /// the whole table.
 const BY_KEYS: &str = "SELECT set_config('enable_seqscan', 'off', true)";
@@ -22,7 +21,7 @@ impl PostgresStore {
         &self,
         ids: &[Uuid],
     ) -> Result<Vec<Stored>, StoreError> {
-        let mut transaction = begin(&self.readers, Some(READ)).await?;
+        let mut transaction = self.snapshot().await?;
         sqlx::query(BY_KEYS).execute(&mut *transaction).await?;
         let rows = sqlx::query(
             "SELECT job_id, entries, content, object, content_bytes, spec, plan FROM result_blocks JOIN jobs ON id = job_id \

@@ -27,9 +27,9 @@ macro_rules! overviews {
 impl EngineStore {
     pub(in crate::store) async fn submitted_batch(
         &self,
-        request: &RequestKey,
+        key: &RequestKey,
     ) -> Result<Option<Submitted>, StoreError> {
-        submitted(&self.readers, request).await
+        submitted(self.unhindered(), key).await
     }
 
     pub(in crate::store) async fn batch_without_profiles(
@@ -159,12 +159,12 @@ impl EngineStore {
 /// Returns the batch that an earlier request with the same key queued.
 pub(super) async fn submitted(
     database: impl sqlx::Executor<'_, Database = Engine>,
-    request: &RequestKey,
+    key: &RequestKey,
 ) -> Result<Option<Submitted>, StoreError> {
     let earlier: Option<(Vec<u8>, StoredId)> =
         sqlx::query_as("SELECT body_sha256, id FROM sweeps WHERE request_key = $1")
-            .bind(&request.key)
+            .bind(&key.key)
             .fetch_optional(database)
             .await?;
-    Ok(earlier.map(|(body, batch)| request.repeated(&body, read_id(batch))))
+    Ok(earlier.map(|(body, batch)| key.repeated(&body, read_id(batch))))
 }

@@ -7,7 +7,6 @@ use uuid::Uuid;
 use super::dialect::{Connection, Engine, FOR_UPDATE, stored_id};
 use super::queries::insert_event;
 use super::transitions::end_job;
-
 use crate::clock::Now;
 use crate::queue;
 use crate::queue::Transition;

@@ -1,4 +1,4 @@
-//! Reading, cancelling and deleting of jobs, and what queues them again.
+//! Reading, cancelling, deleting and retrying of jobs.
 
 use api::job::Status;
 use uuid::Uuid;

@@ -68,7 +68,7 @@ impl EngineStore {
         )
         .bind(integer(age.as_millis()))
         .bind(DELETE_LIMIT)
-        .fetch_all(&self.writer)
+        .fetch_all(self.unhindered())
         .await?;
         for id in old.iter().copied().map(read_id) {
             self.delete(id).await?;

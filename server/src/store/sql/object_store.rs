@@ -1,4 +1,4 @@
-//! The store of objects that a database names.
+//! The store of objects that a database names, and results that stay in the database.
 
 use uuid::Uuid;
 

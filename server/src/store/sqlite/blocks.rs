@@ -6,8 +6,8 @@ use uuid::Uuid;
 use crate::store::StoreError;
 use crate::store::block::EncodedBlock;
 
-/// Stores the block of a job that ends. Its documents replace files of the same names that an earlier end has left. Its history replaces the rows if the job has succeeded: the next try of another one
-/// continues them.
+/// Stores the block of a job that ends. Documents of the block replace files of the same names that an earlier end has left. The history
+/// replaces the rows if the job has succeeded: the next try of another one continues them.
 pub(super) async fn insert_block(
     connection: &mut SqliteConnection,
     id: Uuid,

@@ -23,11 +23,8 @@ impl SqliteStore {
         request: &ClaimRequest,
     ) -> Result<Vec<Claim>, StoreError> {
         self.local.disk.check()?;
-        let (_now, expires_at) = (
-            self.local.clock.now(),
-            self.local.clock.end_of(request.lease),
-        );
         let (mut transaction, now) = self.begin().await?;
+        let expires_at = now.end_of(request.lease);
         let known = claimed_before(&mut transaction, request, (now, expires_at)).await?;
         if !known.is_empty() {
             transaction.commit().await?;

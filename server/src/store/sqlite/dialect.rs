@@ -8,17 +8,21 @@ use uuid::fmt::Hyphenated;
 use crate::clock::Now;
 use crate::store::StoreError;
 pub(super) use crate::store::sqlite::SqliteStore as EngineStore;
+use crate::store::sqlite::queries::BEGIN;
 
+/// Engine, connection and row of sqlx.
 pub(super) type Engine = Sqlite;
 pub(super) type Connection = sqlx::SqliteConnection;
 pub(super) type Row = sqlx::sqlite::SqliteRow;
 /// An id is stored as text with hyphens.
 pub(super) type StoredId = Hyphenated;
 
+/// Returns an id as it is bound.
 pub(super) const fn stored_id(id: Uuid) -> StoredId {
     id.hyphenated()
 }
 
+/// Returns an id that was read.
 pub(super) const fn read_id(stored: StoredId) -> Uuid {
     stored.into_uuid()
 }
@@ -30,6 +34,7 @@ pub(super) const STORES_NUL: bool = true;
 
 /// Texts are compared byte by byte.
 pub(super) const COLLATION: &str = "";
+/// Functions of the largest and the smallest argument.
 pub(super) const GREATEST: &str = "max";
 pub(super) const LEAST: &str = "min";
 /// Joins so that the left table is read first.
@@ -40,7 +45,7 @@ pub(super) const SKIP_LOCKED: &str = "";
 /// The object of a row of `result_files`: files are in the folder.
 pub(super) const FILE_OBJECT: &str = "NULL";
 
-// The planner takes these indexes only if it is told to.
+// Named, because the planner may take others.
 pub(super) const BY_CLAIM: &str = " INDEXED BY jobs_by_claim";
 pub(super) const BY_DEADLINE: &str = " INDEXED BY jobs_by_deadline";
 pub(super) const BY_SWEEP: &str = " INDEXED BY jobs_by_sweep";
@@ -75,10 +80,9 @@ pub(super) async fn is_copy(connection: &mut Connection) -> Result<bool, StoreEr
 }
 
 impl EngineStore {
-    /// Begins a transaction that writes, at a time. It takes the write lock at once: one that reads first and writes later would fail under
-    /// contention.
+    /// Begins a transaction that writes, at a time.
     pub(super) async fn begin(&self) -> Result<(Transaction<'static, Engine>, Now), StoreError> {
-        let transaction = self.writer.begin_with("BEGIN IMMEDIATE").await?;
+        let transaction = self.writer.begin_with(BEGIN).await?;
         Ok((transaction, self.local.clock.now()))
     }
 
@@ -87,7 +91,7 @@ impl EngineStore {
         Ok((self.readers.acquire().await?, self.local.clock.now()))
     }
 
-    /// Connections for reads that must not wait for those of users: reads of a file wait for nothing.
+    /// Connections for reads of workers: those of users, because reads of a file wait for no writes.
     pub(super) fn unhindered(&self) -> &Pool<Engine> {
         &self.readers
     }

@@ -17,6 +17,7 @@ use crate::store::rows::integer;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::blocks::insert_block;
 use crate::store::sqlite::checkpoints;
+use crate::store::sqlite::held_leases;
 use crate::store::sqlite::new_files::insert_files;
 use crate::store::sqlite::queries::insert_event;
 use crate::store::sqlite::transitions::end_job_at;
@@ -39,7 +40,7 @@ impl SqliteStore {
         )
         .bind(update.number)
         .bind(serde_json::to_string(&update.progress)?)
-        .bind(self.local.clock.end_of(length))
+        .bind(now.end_of(length))
         .bind(events)
         .bind(update.checkpoint.is_some())
         .bind(lease.job.to_string())
@@ -47,9 +48,9 @@ impl SqliteStore {
         .fetch_optional(&mut *transaction)
         .await?;
         let Some((last_event, cancel_requested)) = held else {
-            return self
-                .written_before(&mut transaction, lease, update.number)
-                .await;
+            // A repeated write, or the lease was lost, as after a gap.
+            let held = held_leases::held(&mut transaction, lease).await?;
+            return Ok(self.local.written_before(lease, update.number, held));
         };
         write_results(&mut transaction, lease, update).await?;
         if let Some(checkpoint) = &update.checkpoint {
@@ -63,23 +64,6 @@ impl SqliteStore {
         transaction.commit().await?;
         self.local.changed(lease.job);
         Ok(LeaseState::Held { cancel_requested })
-    }
-
-    /// The state of the lease of a write that had no effect: it is a repeated one, or the lease was lost, as after a gap.
-    async fn written_before(
-        &self,
-        transaction: &mut Transaction<'_, Sqlite>,
-        lease: Lease,
-        number: i64,
-    ) -> Result<LeaseState, StoreError> {
-        let held: Option<(i64, bool)> = sqlx::query_as(
-            "SELECT last_write, cancel_requested FROM jobs WHERE id = ? AND lease = ? AND status = 'running'",
-        )
-        .bind(lease.job.to_string())
-        .bind(lease.number)
-        .fetch_optional(&mut **transaction)
-        .await?;
-        Ok(self.local.written_before(lease, number, held))
     }
 
     pub(in crate::store) async fn owned(

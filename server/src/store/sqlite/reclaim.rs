@@ -81,7 +81,7 @@ impl SqliteStore {
                      RETURNING lease, spec, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
                 )
                 .bind(Lease::step())
-                .bind(self.local.clock.end_of(length))
+                .bind(now.end_of(length))
                 .bind(id.to_string())
                 .fetch_one(&mut *transaction)
                 .await?;
