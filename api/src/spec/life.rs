@@ -34,10 +34,10 @@ string_enum! {
 /// Life of the contact.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct LifeSettings {
-    /// Coefficient of variation of the wear coefficients, which are taken as lognormal, -.
+    /// Coefficient of variation of the wear coefficients, which are taken as lognormal, - (default 0.5).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coefficient_of_variation: Option<f64>,
-    /// Number of equal, independent contacts, of which the first one ends the life of the connector.
+    /// Number of equal, independent contacts, of which the first one ends the life of the connector (default 1).
     #[serde(
         default,
         skip_serializing_if = "Option::is_none",
