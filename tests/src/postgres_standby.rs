@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::process::Command;
+use std::time::Duration;
 
 use crate::postgres::{PostgresServer, SETTINGS, new_folder, program};
 
@@ -20,10 +21,27 @@ impl PostgresServer {
             .args(["-R", "-C", "-S", "b", "-c", "fast"])
             .status();
         assert!(copied.expect("pg_basebackup").success(), "no standby");
-        let standby = Self::of(folder, &SETTINGS);
+        // A connection that fails is tried again at once, not after 5 s: commits wait for it.
+        let settings = [&SETTINGS[..], &["wal_retrieve_retry_interval=100ms"]].concat();
+        let standby = Self::of(folder, &settings);
+        self.streams_to_standby();
         self.answer("ALTER SYSTEM SET synchronous_standby_names = 'b'");
         self.answer("SELECT pg_reload_conf()");
         standby
+    }
+
+    /// Waits until a standby receives what is written: before, commits would wait for it, and requests with them.
+    fn streams_to_standby(&self) {
+        for _ in 0..600 {
+            let streams = self.answer(
+                "SELECT count(*) FROM pg_stat_replication WHERE application_name = 'b' AND state = 'streaming'",
+            );
+            if streams == "1" {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(50));
+        }
+        panic!("the standby receives nothing");
     }
 
     /// Lets a standby become the primary.
