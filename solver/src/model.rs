@@ -1,6 +1,7 @@
 //! The model: two meshed bodies with their surfaces, materials and supports. Knows both meshes and laws.
 
 pub(crate) mod friction;
+mod interface;
 pub mod layout;
 pub mod profile;
 mod zones;
@@ -8,14 +9,15 @@ mod zones;
 use crate::closed_form::unworn_contact;
 use crate::effects::EffectsPlan;
 use crate::element;
-use crate::law::elastic::{Lame, contact_modulus, plane_strain_compliance};
-use crate::law::surface::SurfaceWear;
+use crate::law::elastic::Lame;
 use crate::mesh::{ColumnMesh, MeshError, grading};
 use crate::resolution::Sizes;
 use crate::scene::Effect;
 use crate::scene::{Drive, Elastic, Scene, SurfaceEffects};
-use crate::sides::{Side, Sides};
+use crate::sides::Sides;
 
+use interface::slope_weights;
+pub use interface::{HeatSources, Interface, Tangential};
 pub use layout::{BodyLayout, Layout};
 pub use profile::Profile;
 pub(crate) use zones::ZONE_WIDENING;
@@ -76,52 +78,6 @@ pub enum Support {
     GuidedUnderPressure,
 }
 
-/// How the shear traction and the slip of a contact are found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Tangential {
-    /// Every node slips as the slider is displaced, and the contact is solved without shear: |q| = mu p, known afterwards,
-    /// deforms nothing.
-    Omitted,
-    /// Every node slips as the slider is displaced, and q = mu p acts on both bodies.
-    ImposedSlip,
-    /// Each node sticks or slips, and the tangential deformation of both bodies is part of the slip.
-    StickSlip,
-}
-
-/// Laws and load between the bodies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Interface {
-    /// Coefficient of friction, -; the largest where places differ in it. That of the unworn contact until a run changes it.
-    pub friction: f64,
-    /// How the shear traction and the slip are found.
-    pub tangential: Tangential,
-    /// The body whose nodes carry the contact constraints, pressure and shear.
-    pub slave: Side,
-    /// True if part of the contact may stick through the whole stroke.
-    pub sticks: bool,
-    /// Weights of both surfaces' slopes in that of the interface, which the contact's normals belong to, -.
-    pub slope_weights: Sides<f64>,
-    /// Wear of both surfaces; none where nothing wears.
-    pub wear: Sides<Option<SurfaceWear>>,
-    /// Normal load on the unworn contact, N/mm.
-    pub load: f64,
-    /// Stiffness of the spring that applies the load: the load decreases by this as the slider sinks, N/mm per mm.
-    pub spring: f64,
-    /// Contact modulus E* of both bodies, MPa.
-    pub modulus: f64,
-    /// Heat sources of the contact that are simulated.
-    pub heated_by: HeatSources,
-}
-
-/// Heat sources of the contact that are simulated.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct HeatSources {
-    /// Friction.
-    pub friction: bool,
-    /// The current.
-    pub current: bool,
-}
-
 /// Builds the model of a scene from its plan: meshes both bodies, and gives the interface the laws of simulated effects
 /// only.
 ///
@@ -133,7 +89,7 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
         Drive::Handle => Support::FarFaceHeld,
         Drive::WholeBody => Support::GuidedUnderPressure,
     };
-    let interface = interface(scene, plan, &layout.sizes);
+    let interface = Interface::of(scene, plan, &layout.sizes);
     let Sides { slider, receptacle } = layout.bodies;
     Ok(Model {
         bodies: Sides {
@@ -146,61 +102,6 @@ pub fn build(scene: &Scene, plan: &EffectsPlan) -> Result<Model, MeshError> {
         surface: plan.surface_effects(),
         sizes: layout.sizes,
     })
-}
-
-/// The interface of a scene with the laws of simulated effects only.
-fn interface(scene: &Scene, plan: &EffectsPlan, sizes: &Sizes) -> Interface {
-    let surface = plan.surface_effects();
-    let on = |effect| plan.simulates(effect);
-    let tangential = match (on(Effect::Friction), on(Effect::StickMemory)) {
-        (true, true) => Tangential::StickSlip,
-        (true, false) => Tangential::ImposedSlip,
-        (false, _) => Tangential::Omitted,
-    };
-    let sticks = sizes.sticks && tangential == Tangential::StickSlip;
-    Interface {
-        slave: sizes.slave,
-        sticks,
-        slope_weights: slope_weights(scene, sticks),
-        friction: scene.friction.unworn(),
-        tangential,
-        wear: Sides {
-            slider: (scene.slider.surface_wear(surface, None)).filter(|_| on(Effect::SliderWear)),
-            receptacle: (scene.receptacle.surface_wear(surface, None))
-                .filter(|_| on(Effect::ReceptacleWear)),
-        },
-        load: scene.load_n_per_mm,
-        spring: if on(Effect::SpringFading) {
-            scene.spring_n_per_mm2
-        } else {
-            0.0
-        },
-        modulus: contact_modulus(scene.slider.elastic, scene.receptacle.elastic),
-        heated_by: HeatSources {
-            friction: on(Effect::FrictionalHeating),
-            current: on(Effect::JouleHeating),
-        },
-    }
-}
-
-/// Weights of both surfaces' slopes in that of the interface. Two elastic bodies press the surfaces together, the more
-/// compliant one deforms more: in the middle of Hertz' contact the interface has the curvature of each body in proportion to
-/// the stiffness E/(1 - nu^2) of that body (Johnson 1985, section 4.2). So the answer does not depend on which of the bodies is
-/// called the slider. In gross sliding the slider rests on the leading-edge step, whose slope belongs to the wear law and not to
-/// the scar: only the receptacle's count.
-fn slope_weights(scene: &Scene, sticks: bool) -> Sides<f64> {
-    if !sticks {
-        return Sides {
-            slider: 0.0,
-            receptacle: 1.0,
-        };
-    }
-    let bodies = Sides {
-        slider: scene.slider.elastic,
-        receptacle: scene.receptacle.elastic,
-    };
-    let both = contact_modulus(bodies.slider, bodies.receptacle);
-    bodies.map(|body| 1.0 - both * plane_strain_compliance(body))
 }
 
 impl BodyModel {
@@ -318,7 +219,7 @@ impl BodyModel {
 impl Model {
     /// Switches the effects of the interface on or off as a plan has decided.
     pub(crate) fn follow(&mut self, scene: &Scene, plan: &EffectsPlan) {
-        self.interface = interface(scene, plan, &self.sizes);
+        self.interface = Interface::of(scene, plan, &self.sizes);
         self.relocates = plan.simulates(Effect::Relocation);
         self.surface = plan.surface_effects();
     }
