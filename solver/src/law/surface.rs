@@ -54,6 +54,12 @@ impl SurfaceWear {
         }
     }
 
+    /// Volume by Archard's identity, rate times work of the normal force in N mm, mm^3: 0 without wear, `None` where the rate varies.
+    pub fn volume_by_work(wear: Option<Self>, work: f64) -> Option<f64> {
+        let rate = wear.map_or(Some(0.0), Self::uniform);
+        rate.map(|rate| rate * work)
+    }
+
     /// The wear as it is in an increment of an imposed displacement in mm at a pace.
     #[must_use]
     pub fn during(self, pace: Pace, distance_mm: f64) -> Self {

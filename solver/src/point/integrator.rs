@@ -207,12 +207,8 @@ impl PointIntegrator {
         let (sliding, neutral) = (&state.sliding, &state.neutral);
         let area = sliding.lattice.cells().area_mm2();
         let depths = Sides::from_fn(|side| sliding.surfaces.of(side).depths_mm());
-        let ideal = |work: f64| {
-            self.scene.bodies.as_ref().map(|body| {
-                let rate = body.wear.map_or(Some(0.0), SurfaceWear::uniform);
-                rate.map(|rate| rate * work)
-            })
-        };
+        let wear = self.scene.bodies.as_ref().map(|body| body.wear);
+        let ideal = |work| wear.map(|wear| SurfaceWear::volume_by_work(wear, work));
         PointCycle {
             cycle: state.done,
             jump,

@@ -63,12 +63,9 @@ impl ExtrudedIntegrator {
         let distance = per_cycle * real_cycles(self.common.done);
         // No load of a spring, no law of layers has an identity.
         let dead = self.contact.interface.spring <= 0.0;
-        let ideal = |work: f64, known: bool| {
-            self.contact.interface.wear.map(|wear| {
-                let rate = wear.map_or(Some(0.0), SurfaceWear::uniform);
-                rate.filter(|_| known).map(|rate| rate * work)
-            })
-        };
+        let wear = self.contact.interface.wear;
+        let ideal = |work| wear.map(|wear| SurfaceWear::volume_by_work(wear, work));
+        let of_load = ideal(self.scene.force_n() * distance);
         let effort = &self.contact.effort;
         StationCycle {
             cycle: self.common.done,
@@ -77,8 +74,8 @@ impl ExtrudedIntegrator {
             worn_volume_mm3: Sides::from_fn(|side| {
                 over_width(&|k| *stations[k].worn_area_mm2.of(side))
             }),
-            sliding_work_volume_mm3: ideal(work, true),
-            ideal_volume_mm3: ideal(self.scene.force_n() * distance, dead),
+            sliding_work_volume_mm3: ideal(work),
+            ideal_volume_mm3: of_load.map(|volume| volume.filter(|_| dead)),
             dissipated_energy_mj: over_width(&|k| states[k].energy),
             jump_error: self.common.jump.error,
             increments: effort.increments - increments,

@@ -45,13 +45,9 @@ impl LineIntegrator {
         let distance = per_cycle * real_cycles(common.done);
         // No load of a spring, no law of layers has an identity.
         let dead = line.carrier.spring_n_per_mm <= 0.0;
-        let ideal = |work: f64, known: bool| {
-            let rates = self.unworn.model.interface.wear;
-            rates.map(|wear| {
-                let rate = wear.map_or(Some(0.0), SurfaceWear::uniform);
-                rate.filter(|_| known).map(|rate| rate * work)
-            })
-        };
+        let wear = self.unworn.model.interface.wear;
+        let ideal = |work| wear.map(|wear| SurfaceWear::volume_by_work(wear, work));
+        let of_load = ideal(self.scene.force_n * distance);
         let errors = states.iter().map(|station| station.state.jump.error);
         StationCycle {
             cycle: common.done,
@@ -60,8 +56,8 @@ impl LineIntegrator {
             worn_volume_mm3: Sides::from_fn(|side| {
                 over_line(&|j| *reports[j].worn_area_mm2.of(side))
             }),
-            sliding_work_volume_mm3: ideal(over_line(&|j| states[j].state.path), true),
-            ideal_volume_mm3: ideal(self.scene.force_n * distance, dead),
+            sliding_work_volume_mm3: ideal(over_line(&|j| states[j].state.path)),
+            ideal_volume_mm3: of_load.map(|volume| volume.filter(|_| dead)),
             dissipated_energy_mj: over_line(&|j| states[j].state.energy),
             jump_error: errors.fold(0.0, f64::max),
             increments: common.increments - increments,
