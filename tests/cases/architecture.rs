@@ -9,6 +9,7 @@ mod resolution;
 mod rules;
 mod sources;
 mod tests;
+mod violations;
 
 use std::path::Path;
 
@@ -67,7 +68,7 @@ fn folders_and_files_depend_only_on_what_the_rules_allow() {
     let tests = Path::new(env!("CARGO_MANIFEST_DIR"));
     let workspace = tests.parent().expect("the workspace");
     let sources = ["api", "solver", "server"].map(|name| Sources::read(workspace, name));
-    let mut found = rules::violations(&sources);
+    let mut found = violations::violations(&sources);
     found.extend(sources.iter().flat_map(cycles::between_files));
     found.extend(sources.iter().flat_map(cycles::between_folders));
     let found: Vec<String> = found.iter().map(ToString::to_string).collect();

@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::rules::Violation;
 use super::sources::{Sources, Target};
+use super::violations::Violation;
 
 /// Edge of a graph, and the first line that makes it.
 type Edges = BTreeMap<usize, BTreeMap<usize, String>>;
