@@ -303,7 +303,9 @@ impl Contact {
             starts: starts.as_deref(),
         };
         let (last, next, worn) = (&self.planes.contacts, &mut self.next, &mut self.worn);
-        let solved = (self.solver).advance(&extruded, &surfaces, last, slide, next, worn)?;
+        let solved = self
+            .solver
+            .advance(&extruded, &surfaces, last, slide, next, worn)?;
         for (state, worn) in self.planes.states.iter().zip(&self.worn) {
             let recession = worn.recession.as_slices();
             wear_limit::check(&self.spines, &state.depth, to, worn.first, recession)?;

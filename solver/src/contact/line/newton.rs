@@ -119,7 +119,10 @@ impl Newton {
             let last = (residual, changes);
             let partition = &self.partition;
             let (system, altered) = (&mut self.system, renewed || last.1 > 0);
-            if !(self.correction).apply(problem, partition, system, altered, it) {
+            if !self
+                .correction
+                .apply(problem, partition, system, altered, it)
+            {
                 if self.system.is_hierarchical() {
                     // A cluster of its core may be singular although the core is not.
                     (renew, exact_from) = (true, iteration);
