@@ -77,6 +77,8 @@ fn the_table_of_thicknesses_is_what_the_specification_gives() {
         let band = &first["band"];
         let share = |name: &str| band[name].as_f64().expect("cycles");
         let connector_h = median_h * share("first_of_contacts_b10") / share("b50");
+        let ratio = format!("{:.3} of it", connector_h / median_h);
+        assert!(page.contains(&ratio), "{ratio}");
         let found = [median_h, connector_h];
         let shown = found.map(|hours| format!("{hours:.2}"));
         assert_eq!(shown, [1, 2].map(|at| format!("{:.2}", cells[at])), "{row}");
