@@ -31,43 +31,8 @@ mod submissions;
 mod transitions;
 pub(in crate::store) mod verify;
 
-// Statements of both engines.
-#[path = "sql/batch_endings.rs"]
-mod batch_endings;
-#[path = "sql/batches.rs"]
-mod batches;
-#[path = "sql/checkpoints.rs"]
-mod checkpoints;
-#[path = "sql/events.rs"]
-mod events;
-#[path = "sql/expansion_rows.rs"]
-mod expansion_rows;
-#[path = "sql/files.rs"]
-mod files;
-#[path = "sql/held_leases.rs"]
-mod held_leases;
-#[path = "sql/job_list.rs"]
-mod job_list;
-#[path = "sql/job_rows.rs"]
-mod job_rows;
-#[path = "sql/jobs.rs"]
-mod jobs;
-#[path = "sql/maintenance.rs"]
-mod maintenance;
-#[path = "sql/object_store.rs"]
-mod object_store;
-#[path = "sql/results.rs"]
-mod results;
-#[path = "sql/selects.rs"]
-mod selects;
-#[path = "sql/stored_blocks.rs"]
-mod stored_blocks;
-#[path = "sql/verified.rs"]
-mod verified;
-#[path = "sql/worker_tokens.rs"]
-mod worker_tokens;
-#[path = "sql/workers.rs"]
-mod workers;
+#[path = "sql/statements.rs"]
+mod sql;
 
 use std::path::PathBuf;
 use std::time::Instant;

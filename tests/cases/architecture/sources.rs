@@ -8,7 +8,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use syn::{Attribute, Ident, Item, UseTree};
 
@@ -60,6 +60,39 @@ pub(super) enum Target {
     External(Vec<String>),
 }
 
+/// A folder with files of modules.
+struct Folder {
+    read: PathBuf,
+    /// The folder that they count as: another one where several rooms compile the same files (`#[path = ".."]`).
+    room: PathBuf,
+}
+
+impl Folder {
+    fn of(path: &Path) -> Self {
+        Self {
+            read: path.to_owned(),
+            room: path.to_owned(),
+        }
+    }
+
+    fn join(&self, name: &str) -> Self {
+        Self {
+            read: self.read.join(name),
+            room: self.room.join(name),
+        }
+    }
+
+    /// The file of a module whose path is given relative to the file that declares it, and the folder of its child modules.
+    fn given(&self, path: &str, name: &str) -> (PathBuf, Self) {
+        let file = self.read.with_file_name(path);
+        let below = Self {
+            read: file.with_file_name(""),
+            room: self.room.join(name),
+        };
+        (file, below)
+    }
+}
+
 impl Sources {
     /// Reads a crate, the folder `name` of a workspace, from its `src/lib.rs` on.
     pub(super) fn read(workspace: &Path, name: &'static str) -> Self {
@@ -74,7 +107,7 @@ impl Sources {
         let mut parsed = Vec::new();
         let top = workspace.join(name).join("src");
         let lib = top.join("lib.rs");
-        sources.read_file(&lib, &lib, &top, None, &mut parsed);
+        sources.read_file(&lib, &lib, &Folder::of(&top), None, &mut parsed);
         let root = format!("{}/", workspace.display());
         for file in &mut sources.files {
             *file = file.replacen(&root, "", 1);
@@ -83,13 +116,12 @@ impl Sources {
         sources
     }
 
-    /// Adds the module of a file, whose child modules lie in `folder`; returns its number. A file that several rooms compile
-    /// (`#[path = ".."]`) counts as one of each.
+    /// Adds the module of a file, whose child modules lie in `folder`; returns its number.
     fn read_file(
         &mut self,
         path: &Path,
         counted_as: &Path,
-        folder: &Path,
+        folder: &Folder,
         parent: Option<usize>,
         parsed: &mut Vec<(usize, syn::File)>,
     ) -> usize {
@@ -119,7 +151,7 @@ impl Sources {
         &mut self,
         items: &[Item],
         module: usize,
-        folder: &Path,
+        folder: &Folder,
         parsed: &mut Vec<(usize, syn::File)>,
     ) {
         for item in items.iter().filter(|item| !is_test(attributes(item))) {
@@ -132,12 +164,12 @@ impl Sources {
                         self.read_items(items, child, &below, parsed);
                         child
                     } else {
-                        let own = folder.join(format!("{name}.rs"));
-                        let given = given_path(&inner.attrs);
-                        // It is relative to the folder of the file that declares the module.
-                        let given = given.and_then(|given| Some(folder.parent()?.join(given)));
-                        let path = given.as_ref().unwrap_or(&own);
-                        self.read_file(path, &own, &below, Some(module), parsed)
+                        let counted_as = folder.room.join(format!("{name}.rs"));
+                        let (path, below) = match given_path(&inner.attrs) {
+                            None => (folder.read.join(format!("{name}.rs")), below),
+                            Some(given) => folder.given(&given, &name),
+                        };
+                        self.read_file(&path, &counted_as, &below, Some(module), parsed)
                     };
                     self.modules[module].children.insert(name, child);
                 }

@@ -106,7 +106,7 @@ fn with(object: &str, field: &str, value: f64) -> (String, String) {
             "/interface/friction",
             format!(r#""interface":{{"friction":{{"law":"coulomb","{field}":{value}}}}}"#),
         ),
-        "FrictionAtCycle" | "FrictionAtDose" => friction_table((object, field), value),
+        "FrictionAtCycle" | "FrictionAtDose" => friction_table(object, field, value),
         "WearLaw" => {
             let (law, other) = law_with(field);
             (
@@ -163,7 +163,7 @@ fn with(object: &str, field: &str, value: f64) -> (String, String) {
 }
 
 /// A table of friction with a value at a field of its first point, and the pointer to that point.
-fn friction_table((object, field): (&str, &str), value: f64) -> (&'static str, String) {
+fn friction_table(object: &str, field: &str, value: f64) -> (&'static str, String) {
     let (pointer, table, other) = match (object, field) {
         ("FrictionAtCycle", _) => ("/interface/friction/by_cycle/0", "by_cycle", r#""cycle":0"#),
         (_, "coefficient") => (

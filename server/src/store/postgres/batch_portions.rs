@@ -5,8 +5,8 @@ use uuid::Uuid;
 
 use crate::store::StoreError;
 use crate::store::batches::JOBS_AT_ONCE;
-use crate::store::postgres::batch_endings::is_active;
-use crate::store::postgres::job_rows::cancel;
+use crate::store::postgres::sql::batch_endings::is_active;
+use crate::store::postgres::sql::job_rows::cancel;
 use crate::store::postgres::{PostgresStore, begin};
 
 impl PostgresStore {

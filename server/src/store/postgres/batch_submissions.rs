@@ -7,9 +7,9 @@ use crate::clock::Now;
 use crate::store::batches::NewBatch;
 use crate::store::job_ids::new_id;
 use crate::store::postgres::PostgresStore;
-use crate::store::postgres::batches::submitted;
-use crate::store::postgres::expansion_rows::insert_expansion;
 use crate::store::postgres::expansions::insert_jobs;
+use crate::store::postgres::sql::batches::submitted;
+use crate::store::postgres::sql::expansion_rows::insert_expansion;
 use crate::store::{RequestKey, StoreError, Submitted};
 
 impl PostgresStore {
@@ -21,7 +21,7 @@ impl PostgresStore {
         self.local.disk.check()?;
         let (mut transaction, now) = self.begin().await?;
         let id = new_id(now.system_ms);
-        if !insert_batch(&mut transaction, (id, batch), key, now).await?
+        if !insert_batch(&mut transaction, id, batch, key, now).await?
             && let Some(key) = key
         {
             // The transaction of the earlier request has ended: this one has waited for it.
@@ -41,7 +41,8 @@ impl PostgresStore {
 /// Adds a batch without its jobs; false if an earlier request with the same key has added one.
 async fn insert_batch(
     connection: &mut PgConnection,
-    (id, batch): (Uuid, &NewBatch),
+    id: Uuid,
+    batch: &NewBatch,
     key: Option<&RequestKey>,
     now: Now,
 ) -> Result<bool, StoreError> {

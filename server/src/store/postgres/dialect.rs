@@ -92,7 +92,7 @@ impl EngineStore {
     }
 
     /// Connections for reads of workers and submissions, which must not wait for those of users.
-    pub(super) fn unhindered(&self) -> &Pool<Engine> {
+    pub(super) fn priority_readers(&self) -> &Pool<Engine> {
         &self.writer
     }
 

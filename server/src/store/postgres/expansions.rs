@@ -73,7 +73,7 @@ pub(super) async fn insert_jobs(
             Ok((job, row))
         });
         let rows: Vec<_> = rows.collect::<Result<_, StoreError>>()?;
-        insert(&mut *connection, &rows, (Some(batch), now)).await?;
+        insert(&mut *connection, &rows, Some(batch), now).await?;
         ids.extend(rows.iter().map(|(_, row)| row.id));
     }
     let positions = new.iter().map(|new| integer(new.position));

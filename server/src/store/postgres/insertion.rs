@@ -12,7 +12,8 @@ use crate::store::{NewJob, StoreError};
 pub(super) async fn insert(
     connection: &mut PgConnection,
     new: &[(&NewJob, NewRow)],
-    (batch, now): (Option<Uuid>, Now),
+    batch: Option<Uuid>,
+    now: Now,
 ) -> Result<(), StoreError> {
     fn each<'a, T>(new: &'a [(&NewJob, NewRow)], value: impl Fn(&'a NewRow) -> T) -> Vec<T> {
         new.iter().map(|(_, row)| value(row)).collect()

@@ -4,21 +4,9 @@ use sqlx::postgres::{PgConnection, PgRow};
 use uuid::Uuid;
 
 use crate::store::StoreError;
-use crate::store::rows::{attempt_event, stored_row};
+use crate::store::rows::stored_row;
 
 stored_row!(PgRow, Uuid);
-
-/// Appends the event of a new attempt, which starts at a cycle.
-pub(super) async fn insert_attempt_event(
-    connection: &mut PgConnection,
-    id: Uuid,
-    seq: i64,
-    attempt: u32,
-    from_cycle: u64,
-) -> Result<(), StoreError> {
-    let data = attempt_event(attempt, from_cycle)?;
-    insert_event(connection, id, seq, "attempt", &data).await
-}
 
 /// An event that is appended.
 #[derive(Debug)]

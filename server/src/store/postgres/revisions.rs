@@ -6,7 +6,7 @@ use sqlx::{Postgres, QueryBuilder};
 
 use crate::store::overview::overview;
 use crate::store::postgres::PostgresStore;
-use crate::store::postgres::selects::select_overview;
+use crate::store::postgres::sql::selects::select_overview;
 use crate::store::postgres::upkeep::KEPT_REVISIONS;
 use crate::store::rows::StoredRow;
 use crate::store::{Changed, StoreError};

@@ -25,7 +25,7 @@ impl PostgresStore {
             return Ok(earlier);
         }
         let new = [(job, NewRow::of(job, id, now)?)];
-        insert(&mut transaction, &new, (None, now)).await?;
+        insert(&mut transaction, &new, None, now).await?;
         transaction.commit().await?;
         self.local.concluded(id, Some(Status::Queued));
         Ok(Submitted::Job(id))

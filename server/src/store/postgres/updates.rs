@@ -6,9 +6,9 @@ use sqlx::postgres::PgConnection;
 use uuid::Uuid;
 
 use crate::clock::Now;
-use crate::store::postgres::checkpoints;
 use crate::store::postgres::new_files::insert_files;
 use crate::store::postgres::queries::{NewEvent, insert_events};
+use crate::store::postgres::sql::checkpoints;
 use crate::store::rows::integer;
 use crate::store::{JobUpdate, Lease, StoreError};
 
@@ -48,7 +48,7 @@ pub(super) async fn insert_results(
         insert_files(connection, *lease, &update.files).await?;
         if let Some(checkpoint) = &update.checkpoint {
             let object = update.checkpoint_object.as_deref();
-            checkpoints::write(connection, *lease, (checkpoint, object), now).await?;
+            checkpoints::write(connection, *lease, checkpoint, object, now).await?;
         }
     }
     Ok(())

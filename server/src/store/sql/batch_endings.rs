@@ -75,7 +75,7 @@ impl EngineStore {
 }
 
 /// Checks whether jobs of a batch wait, run or are still to be queued.
-pub(super) async fn is_active(
+pub(in super::super) async fn is_active(
     connection: &mut Connection,
     batch: Uuid,
 ) -> Result<bool, StoreError> {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-use sqlx::QueryBuilder;
+use sqlx::AssertSqlSafe;
 use uuid::Uuid;
 
 use super::dialect::{BY_SWEEP, Engine, EngineStore, StoredId, read_id, stored_id};
@@ -29,7 +29,7 @@ impl EngineStore {
         &self,
         key: &RequestKey,
     ) -> Result<Option<Submitted>, StoreError> {
-        submitted(self.unhindered(), key).await
+        submitted(self.priority_readers(), key).await
     }
 
     pub(in crate::store) async fn batch_without_profiles(
@@ -143,11 +143,13 @@ impl EngineStore {
             return Ok(kept);
         }
         let began = Instant::now();
-        let mut query = QueryBuilder::<Engine>::new(format!(
-            "SELECT status, count(*) FROM jobs{BY_SWEEP} WHERE sweep_id = "
-        ));
-        query.push_bind(stored_id(id)).push(" GROUP BY status");
-        let rows: Vec<(String, i64)> = query.build_query_as().fetch_all(&self.readers).await?;
+        let statement = format!(
+            "SELECT status, count(*) FROM jobs{BY_SWEEP} WHERE sweep_id = $1 GROUP BY status"
+        );
+        let rows: Vec<(String, i64)> = sqlx::query_as(AssertSqlSafe(statement))
+            .bind(stored_id(id))
+            .fetch_all(&self.readers)
+            .await?;
         let mut counts = no_jobs();
         let count = |(status, count): (String, i64)| (status, count.try_into().unwrap_or_default());
         counts.extend(rows.into_iter().map(count));
@@ -157,7 +159,7 @@ impl EngineStore {
 }
 
 /// Returns the batch that an earlier request with the same key queued.
-pub(super) async fn submitted(
+pub(in super::super) async fn submitted(
     database: impl sqlx::Executor<'_, Database = Engine>,
     key: &RequestKey,
 ) -> Result<Option<Submitted>, StoreError> {

@@ -13,7 +13,7 @@ use crate::store::{ClaimedCheckpoint, Lease, StoreError, integrity};
 
 /// Returns the checkpoint of a job and deletes the results after its cycle. A checkpoint whose checksum differs is
 /// deleted with all results.
-pub(super) async fn restore(
+pub(in super::super) async fn restore(
     connection: &mut Connection,
     id: Uuid,
 ) -> Result<Option<ClaimedCheckpoint>, StoreError> {
@@ -37,10 +37,11 @@ pub(super) async fn restore(
 
 /// Replaces the checkpoint of a job, in a transaction that has checked the lease. Its state is in an object, unless that may have been
 /// removed already.
-pub(super) async fn write(
+pub(in super::super) async fn write(
     connection: &mut Connection,
     lease: Lease,
-    (checkpoint, object): (&EncodedCheckpoint, Option<&str>),
+    checkpoint: &EncodedCheckpoint,
+    object: Option<&str>,
     now: Now,
 ) -> Result<(), StoreError> {
     let named = match object {

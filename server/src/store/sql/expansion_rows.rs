@@ -37,7 +37,7 @@ impl EngineStore {
 }
 
 /// Notes the jobs that are to be queued.
-pub(super) async fn insert_expansion(
+pub(in super::super) async fn insert_expansion(
     connection: &mut Connection,
     batch: Uuid,
     expansion: &NewExpansion,

@@ -5,9 +5,9 @@ use std::time::Duration;
 use api::job::Status;
 use sqlx::AssertSqlSafe;
 
+use super::attempts::insert_attempt_event;
 use super::checkpoint_objects::delete_results_after;
 use super::dialect::{Connection, EngineStore, GREATEST, stored_id};
-use super::queries::insert_attempt_event;
 use crate::queue::Transition;
 use crate::store::ending::EndingJob;
 use crate::store::{Lease, LeaseState, StoreError};
@@ -39,7 +39,7 @@ impl EngineStore {
         &self,
         lease: impl Into<Lease>,
     ) -> Result<LeaseState, StoreError> {
-        let mut connection = self.unhindered().acquire().await?;
+        let mut connection = self.priority_readers().acquire().await?;
         let held = held(&mut connection, lease.into()).await?;
         Ok(LeaseState::of(
             held.map(|(_, cancel_requested)| cancel_requested),
@@ -86,7 +86,7 @@ impl EngineStore {
         let lease = lease.into();
         let fruitless: Option<i64> = sqlx::query_scalar("SELECT fruitless FROM jobs WHERE id = $1")
             .bind(stored_id(lease.job))
-            .fetch_optional(self.unhindered())
+            .fetch_optional(self.priority_readers())
             .await?;
         let fruitless = fruitless.unwrap_or_default().try_into().unwrap_or_default();
         let limit = self.local.attempt_limit;
@@ -96,7 +96,7 @@ impl EngineStore {
 }
 
 /// Number of the last write of a held job, and whether its end was requested; `None` if the lease was lost.
-pub(super) async fn held(
+pub(in super::super) async fn held(
     connection: &mut Connection,
     lease: Lease,
 ) -> Result<Option<(i64, bool)>, StoreError> {

@@ -2,7 +2,7 @@
 
 use api::job::{Job, JobOverview};
 use api::service::LabelInUse;
-use sqlx::QueryBuilder;
+use sqlx::{AssertSqlSafe, QueryBuilder};
 use uuid::Uuid;
 
 use super::dialect::{
@@ -62,13 +62,14 @@ impl EngineStore {
     }
 
     pub(in crate::store) async fn labels(&self, most: u32) -> Result<Vec<LabelInUse>, StoreError> {
-        let mut query = QueryBuilder::<Engine>::new(format!(
+        let statement = format!(
             "SELECT key, value, count(*) FROM labels GROUP BY key, value \
-             ORDER BY key{COLLATION}, 3 DESC, value{COLLATION} LIMIT "
-        ));
-        query.push_bind(i64::from(most));
-        let rows: Vec<(String, String, i64)> =
-            query.build_query_as().fetch_all(&self.readers).await?;
+             ORDER BY key{COLLATION}, 3 DESC, value{COLLATION} LIMIT $1"
+        );
+        let rows: Vec<(String, String, i64)> = sqlx::query_as(AssertSqlSafe(statement))
+            .bind(i64::from(most))
+            .fetch_all(&self.readers)
+            .await?;
         let rows = rows.into_iter().map(|(key, value, jobs)| LabelInUse {
             key,
             value,

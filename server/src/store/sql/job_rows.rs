@@ -1,10 +1,10 @@
 //! Statements about one job within a transaction.
 
 use api::job::Status;
-use sqlx::QueryBuilder;
+use sqlx::AssertSqlSafe;
 use uuid::Uuid;
 
-use super::dialect::{Connection, Engine, FOR_UPDATE, stored_id};
+use super::dialect::{Connection, FOR_UPDATE, stored_id};
 use super::queries::insert_event;
 use super::transitions::end_job;
 use crate::clock::Now;
@@ -19,14 +19,16 @@ pub(super) async fn lock(
     connection: &mut Connection,
     id: Uuid,
 ) -> Result<Option<Status>, StoreError> {
-    let mut query = QueryBuilder::<Engine>::new("SELECT status FROM jobs WHERE id = ");
-    query.push_bind(stored_id(id)).push(FOR_UPDATE);
-    let row = query.build().fetch_optional(connection).await?;
+    let statement = format!("SELECT status FROM jobs WHERE id = $1{FOR_UPDATE}");
+    let row = sqlx::query(AssertSqlSafe(statement))
+        .bind(stored_id(id))
+        .fetch_optional(connection)
+        .await?;
     row.map(|row| status(id, &row)).transpose()
 }
 
 /// Requests the end of a job, within a transaction.
-pub(super) async fn cancel(
+pub(in super::super) async fn cancel(
     connection: &mut Connection,
     id: Uuid,
     now: Now,

@@ -3,12 +3,10 @@
 use std::time::Duration;
 
 use api::job::{Outcome, Status};
-use sqlx::{AssertSqlSafe, QueryBuilder};
+use sqlx::AssertSqlSafe;
 use uuid::Uuid;
 
-use super::dialect::{
-    BY_DEADLINE, Engine, EngineStore, GREATEST, LEAST, SKIP_LOCKED, StoredId, read_id,
-};
+use super::dialect::{BY_DEADLINE, EngineStore, GREATEST, LEAST, SKIP_LOCKED, StoredId, read_id};
 use super::transitions::end_job;
 use crate::queue::Transition;
 use crate::store::ending::EndingJob;
@@ -22,13 +20,11 @@ const DELETE_LIMIT: i64 = 50;
 impl EngineStore {
     pub(in crate::store) async fn expire(&self) -> Result<usize, StoreError> {
         let (mut transaction, now) = self.begin().await?;
-        let mut query = QueryBuilder::<Engine>::new(format!(
-            "SELECT id FROM jobs{BY_DEADLINE} WHERE status = 'queued' AND deadline_at <= "
-        ));
-        query.push_bind(now.monotonic_ms);
-        query.push(format!(" ORDER BY id{SKIP_LOCKED}"));
-        let late: Vec<StoredId> = query
-            .build_query_scalar()
+        let statement = format!(
+            "SELECT id FROM jobs{BY_DEADLINE} WHERE status = 'queued' AND deadline_at <= $1 ORDER BY id{SKIP_LOCKED}"
+        );
+        let late: Vec<StoredId> = sqlx::query_scalar(AssertSqlSafe(statement))
+            .bind(now.monotonic_ms)
             .fetch_all(&mut *transaction)
             .await?;
         let late: Vec<Uuid> = late.into_iter().map(read_id).collect();
@@ -68,7 +64,7 @@ impl EngineStore {
         )
         .bind(integer(age.as_millis()))
         .bind(DELETE_LIMIT)
-        .fetch_all(self.unhindered())
+        .fetch_all(self.priority_readers())
         .await?;
         for id in old.iter().copied().map(read_id) {
             self.delete(id).await?;

@@ -15,7 +15,7 @@ pub(super) fn select() -> QueryBuilder<Engine> {
 }
 
 /// Starts a query of short documents.
-pub(super) fn select_overview() -> QueryBuilder<Engine> {
+pub(in super::super) fn select_overview() -> QueryBuilder<Engine> {
     QueryBuilder::new(format!("SELECT {} FROM jobs", overview()))
 }
 

@@ -7,7 +7,7 @@ use crate::store::StoreError;
 use crate::store::stored_block::StoredBlock;
 
 /// Reads the block of a job; `None` if it has none.
-pub(super) async fn stored_block(
+pub(in super::super) async fn stored_block(
     connection: &mut Connection,
     id: Uuid,
 ) -> Result<Option<StoredBlock>, sqlx::Error> {

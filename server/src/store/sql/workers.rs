@@ -1,10 +1,10 @@
 //! Remote workers.
 
 use api::worker::RemoteWorker;
-use sqlx::QueryBuilder;
+use sqlx::AssertSqlSafe;
 use uuid::Uuid;
 
-use super::dialect::{BY_CLAIM, Engine, EngineStore, SKIP_LOCKED, StoredId, read_id, stored_id};
+use super::dialect::{BY_CLAIM, EngineStore, SKIP_LOCKED, StoredId, read_id, stored_id};
 use crate::store::StoreError;
 use crate::store::rows::remote_worker;
 use crate::store::workers::{WorkerContact, contact_at, present_from, remembered_from};
@@ -53,26 +53,29 @@ impl EngineStore {
             .execute(&mut *transaction)
             .await?;
         }
-        let mut query = QueryBuilder::<Engine>::new(
-            "DELETE FROM workers WHERE id IN (SELECT id FROM workers WHERE last_contact_at < ",
+        let statement = format!(
+            "DELETE FROM workers WHERE id IN (SELECT id FROM workers WHERE last_contact_at < $1 ORDER BY id{SKIP_LOCKED})"
         );
-        query.push_bind(remembered_from(now));
-        query.push(format!(" ORDER BY id{SKIP_LOCKED})"));
-        query.build().execute(&mut *transaction).await?;
+        sqlx::query(AssertSqlSafe(statement))
+            .bind(remembered_from(now))
+            .execute(&mut *transaction)
+            .await?;
         Ok(transaction.commit().await?)
     }
 
     pub(in crate::store) async fn workers(&self) -> Result<Vec<RemoteWorker>, StoreError> {
         let (mut connection, now) = self.read().await?;
         let now = now.monotonic_ms;
-        let mut query = QueryBuilder::<Engine>::new(format!(
+        let statement = format!(
             "SELECT id, host, slots, memory_mb, free_memory_mb, last_contact_at, failing, \
              CAST(CASE WHEN is_draining THEN 1 ELSE 0 END AS bigint) AS is_draining, \
              (SELECT count(*) FROM jobs{BY_CLAIM} WHERE status = 'running' AND worker = workers.id) AS jobs \
-             FROM workers WHERE last_contact_at >= "
-        ));
-        query.push_bind(present_from(now)).push(" ORDER BY id");
-        let rows = query.build().fetch_all(&mut *connection).await?;
+             FROM workers WHERE last_contact_at >= $1 ORDER BY id"
+        );
+        let rows = sqlx::query(AssertSqlSafe(statement))
+            .bind(present_from(now))
+            .fetch_all(&mut *connection)
+            .await?;
         rows.iter().map(|row| remote_worker(row, now)).collect()
     }
 

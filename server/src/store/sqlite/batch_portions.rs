@@ -7,8 +7,8 @@ use crate::store::StoreError;
 use crate::store::batches::JOBS_AT_ONCE;
 use crate::store::rows::integer;
 use crate::store::sqlite::SqliteStore;
-use crate::store::sqlite::batch_endings::is_active;
-use crate::store::sqlite::job_rows::cancel;
+use crate::store::sqlite::sql::batch_endings::is_active;
+use crate::store::sqlite::sql::job_rows::cancel;
 
 impl SqliteStore {
     pub(in crate::store) async fn cancel_some(&self, batch: Uuid) -> Result<bool, StoreError> {

@@ -6,10 +6,10 @@ use uuid::Uuid;
 use crate::clock::Now;
 use crate::store::batches::NewBatch;
 use crate::store::sqlite::SqliteStore;
-use crate::store::sqlite::batches::submitted;
 use crate::store::sqlite::dialect::stored_id;
-use crate::store::sqlite::expansion_rows::insert_expansion;
 use crate::store::sqlite::expansions::insert_jobs;
+use crate::store::sqlite::sql::batches::submitted;
+use crate::store::sqlite::sql::expansion_rows::insert_expansion;
 use crate::store::{RequestKey, StoreError, Submitted};
 
 impl SqliteStore {

@@ -9,8 +9,9 @@ use crate::queue::admit;
 use crate::store::candidates::Candidate;
 use crate::store::rows;
 use crate::store::rows::{StoredRow, integer};
-use crate::store::sqlite::queries::insert_attempt_event;
-use crate::store::sqlite::{SqliteStore, checkpoints};
+use crate::store::sqlite::SqliteStore;
+use crate::store::sqlite::sql::attempts::insert_attempt_event;
+use crate::store::sqlite::sql::checkpoints;
 use crate::store::workers::present_from;
 use crate::store::{Claim, ClaimRequest, ClaimedCheckpoint, Lease, StoreError};
 

@@ -92,7 +92,7 @@ impl EngineStore {
     }
 
     /// Connections for reads of workers: those of users, because reads of a file wait for no writes.
-    pub(super) fn unhindered(&self) -> &Pool<Engine> {
+    pub(super) fn priority_readers(&self) -> &Pool<Engine> {
         &self.readers
     }
 

@@ -16,10 +16,10 @@ use crate::store::local::log_lost_writes;
 use crate::store::rows::integer;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::blocks::insert_block;
-use crate::store::sqlite::checkpoints;
-use crate::store::sqlite::held_leases;
 use crate::store::sqlite::new_files::insert_files;
 use crate::store::sqlite::queries::insert_event;
+use crate::store::sqlite::sql::checkpoints;
+use crate::store::sqlite::sql::held_leases;
 use crate::store::sqlite::transitions::end_job_at;
 use crate::store::{End, JobUpdate, Lease, LeaseState, StoreError};
 
@@ -55,7 +55,7 @@ impl SqliteStore {
         write_results(&mut transaction, lease, update).await?;
         if let Some(checkpoint) = &update.checkpoint {
             let object = update.checkpoint_object.as_deref();
-            checkpoints::write(&mut transaction, lease, (checkpoint, object), now).await?;
+            checkpoints::write(&mut transaction, lease, checkpoint, object, now).await?;
             self.local.metrics.checkpoints.inc();
         }
         for (seq, (name, data)) in (last_event - events + 1..).zip(&update.events) {

@@ -6,25 +6,13 @@ use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
 use crate::store::StoreError;
-use crate::store::rows::{attempt_event, stored_row};
+use crate::store::rows::stored_row;
 
 /// Takes the write lock at once: a transaction that reads first and writes later would fail under contention.
 pub(super) const BEGIN: &str = "BEGIN IMMEDIATE";
 
 // Ids are stored as text with hyphens.
 stored_row!(SqliteRow, Hyphenated);
-
-/// Appends the event of a new attempt, which starts at a cycle.
-pub(super) async fn insert_attempt_event(
-    connection: &mut SqliteConnection,
-    id: Uuid,
-    seq: i64,
-    attempt: u32,
-    from_cycle: u64,
-) -> Result<(), StoreError> {
-    let data = attempt_event(attempt, from_cycle)?;
-    insert_event(connection, id, seq, "attempt", &data).await
-}
 
 /// Appends an event; the caller has raised `jobs.last_event` to `seq` in the same transaction.
 pub(super) async fn insert_event(

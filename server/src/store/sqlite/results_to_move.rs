@@ -5,7 +5,7 @@ use uuid::Uuid;
 
 use crate::store::results_to_move::{Stored, StoredFile, file_to_move};
 use crate::store::sqlite::SqliteStore;
-use crate::store::sqlite::stored_blocks::stored_block;
+use crate::store::sqlite::sql::stored_blocks::stored_block;
 use crate::store::{StoreError, StoredEvent};
 
 impl SqliteStore {

@@ -3,7 +3,7 @@
 use crate::store::overview::overview;
 use crate::store::rows::StoredRow;
 use crate::store::sqlite::SqliteStore;
-use crate::store::sqlite::selects::select_overview;
+use crate::store::sqlite::sql::selects::select_overview;
 use crate::store::{Changed, StoreError};
 
 /// Changes that are read at once.

@@ -1,0 +1,23 @@
+//! Statements that both engines execute. Each engine compiles this module and those below as its own, with the types of its `dialect`.
+
+pub(super) mod attempts;
+pub(super) mod batch_endings;
+pub(super) mod batches;
+pub(super) mod checkpoints;
+mod events;
+pub(super) mod expansion_rows;
+mod files;
+pub(super) mod held_leases;
+mod job_list;
+pub(super) mod job_rows;
+mod jobs;
+mod maintenance;
+mod object_store;
+mod results;
+pub(super) mod selects;
+pub(super) mod stored_blocks;
+mod verified;
+mod worker_tokens;
+mod workers;
+
+use super::{checkpoint_objects, dialect, queries, transitions};
