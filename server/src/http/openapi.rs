@@ -19,6 +19,8 @@ use crate::http::problem::MEDIA_TYPE;
 use serde_json::{Map, Value, json};
 use solver::record::{Channels, CycleReport, ResistanceReport, SideReport, TemperatureReport};
 
+/// Where the document has examples.
+const EXAMPLES: &str = "#/components/examples/";
 /// Status and description of the problems of operations with a body, which is always a specification or contains one.
 const BODY_PROBLEMS: [(&str, &str); 5] = [
     (
@@ -196,6 +198,19 @@ fn set_problem_media_type(response: &mut Value) {
 mod tests {
     use super::*;
 
+    /// All responses, named by status, method and path.
+    pub(super) fn responses() -> Vec<(String, &'static Value)> {
+        let mut found = Vec::new();
+        for (path, methods) in document()["paths"].as_object().expect("paths") {
+            for (method, operation) in methods.as_object().expect("methods") {
+                for (status, response) in operation["responses"].as_object().expect("responses") {
+                    found.push((format!("{status} {method} {path}"), response));
+                }
+            }
+        }
+        found
+    }
+
     #[test]
     fn the_committed_document_is_up_to_date() {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../api/openapi.json");
@@ -208,17 +223,11 @@ mod tests {
 
     #[test]
     fn every_problem_of_every_operation_has_a_type() {
-        let paths = document()["paths"].as_object().expect("paths");
-        for (path, methods) in paths {
-            for (method, operation) in methods.as_object().expect("methods") {
-                let responses = operation["responses"].as_object();
-                for (status, response) in responses.into_iter().flatten() {
-                    let content = &response["content"][MEDIA_TYPE];
-                    let examples = content["examples"].as_object();
-                    let is_typed = examples.is_some_and(|examples| !examples.is_empty());
-                    assert!(content.is_null() || is_typed, "{method} {path} {status}");
-                }
-            }
+        for (name, response) in responses() {
+            let content = &response["content"][MEDIA_TYPE];
+            let examples = content["examples"].as_object();
+            let is_typed = examples.is_some_and(|examples| !examples.is_empty());
+            assert!(content.is_null() || is_typed, "{name}");
         }
     }
 

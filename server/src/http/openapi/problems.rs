@@ -2,10 +2,8 @@
 
 use serde_json::{Map, Value, json};
 
+use super::EXAMPLES;
 use crate::http::problem::{MEDIA_TYPE, ProblemType};
-
-/// Where the document has an example of each type.
-const EXAMPLES: &str = "#/components/examples/";
 
 /// Names of the problem types whose resource a path has to name.
 const OF_RESOURCES: [(&str, &[&str]); 7] = [
