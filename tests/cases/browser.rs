@@ -76,13 +76,7 @@ fn with_fields(name: &str) -> Value {
 
 /// A job that fails after some cycles: its deadline passes.
 async fn failed(server: &Server, name: &str) -> String {
-    let url = format!("{}/v1/jobs?deadline_s=2", server.base);
-    let request = server.client.post(url).json(&long(name)).send().await;
-    let job: Value = request
-        .expect("an answer")
-        .json()
-        .await
-        .expect("a document");
+    let (_, job) = server.post_json("/v1/jobs?deadline_s=2", &long(name)).await;
     let id = job["id"].as_str().expect("a job has an id").to_owned();
     let ended = |job: &Value| job["status"] == "failed";
     server.job_when(&id, ended).await;

@@ -84,13 +84,7 @@ async fn subjects(server: &Server) -> Subjects {
         format!("/v1/sweeps/{sweep}"),
         format!("/v1/studies/{study}"),
     ] {
-        let (_, document) = server.get(&batch).await;
-        for job in document["jobs"].as_array().expect("jobs") {
-            let id = job["id"].as_str().expect("an id");
-            server
-                .job_when(id, |job| job["finished_at"].is_string())
-                .await;
-        }
+        server.batch_ended(&batch).await;
     }
     created(server, "/v1/worker-tokens", &json!({"name": "cluster"})).await;
     let worker = loop {
@@ -114,13 +108,9 @@ async fn created(server: &Server, path: &str, body: &Value) -> String {
 }
 
 async fn sent(server: &Server, path: &str, body: &Value) -> Value {
-    let request = server
-        .client
-        .post(format!("{}{path}", server.base))
-        .json(body);
-    let answer = request.send().await.expect("the service answers");
-    assert!(answer.status().is_success(), "{path}: {}", answer.status());
-    answer.json().await.expect("JSON")
+    let (status, answer) = server.post_json(path, body).await;
+    assert!((200..300).contains(&status), "{path}: {status} {answer}");
+    answer
 }
 
 /// An answer of each schema, and the text of each path that has one.

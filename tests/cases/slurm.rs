@@ -158,13 +158,8 @@ async fn a_sweep_is_solved_on_three_nodes() {
         .map(|number| 10.0 + 1e-3 * f64::from(u32::try_from(number).expect("small")))
         .collect();
     let sweep = json!({"base": base, "grid": {"/load/n_per_mm": loads}});
-    let posted = server
-        .client
-        .post(format!("{}/v1/sweeps", server.base))
-        .json(&sweep);
-    let posted = posted.send().await.expect("an answer");
-    let status = posted.status();
-    assert_eq!(status, 202, "{}", posted.text().await.expect("a text"));
+    let (status, answer) = server.post_json("/v1/sweeps", &sweep).await;
+    assert_eq!(status, 202, "{answer}");
     let began = Instant::now();
     let mut samples = Vec::new();
     let mut running = pilot(&server, &slurm).spawn().expect("a pilot");

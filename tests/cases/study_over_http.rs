@@ -1,7 +1,7 @@
 //! Requirement: `POST /v1/studies` queues the runs of a study as ordinary jobs; after their end, errors, Pareto front,
 //! observed orders, table and picture are available.
 
-use serde_json::{Value, json};
+use serde_json::json;
 use tests::Server;
 
 #[tokio::test]
@@ -17,24 +17,12 @@ async fn an_accuracy_study_runs_as_jobs_of_the_service() {
         },
         "budget_s": 4
     });
-    let request = server
-        .client
-        .post(format!("{}/v1/studies", server.base))
-        .json(&request);
-    let answer = request.send().await.expect("the service answers");
-    assert_eq!(answer.status(), 202);
-    let study: Value = answer.json().await.expect("JSON");
+    let (status, study) = server.post_json("/v1/studies", &request).await;
+    assert_eq!(status, 202);
     let path = format!("/v1/studies/{}", study["id"].as_str().expect("an id"));
     let jobs = study["jobs"].as_array().expect("jobs");
     assert!(jobs.len() >= 12, "{study}");
-    for job in jobs {
-        let job = job["id"].as_str().expect("an id");
-        server
-            .job_when(job, |job| job["finished_at"].is_string())
-            .await;
-    }
-
-    let (_, document) = server.get(&path).await;
+    let document = server.batch_ended(&path).await;
     assert_eq!(document["counts"]["succeeded"], jobs.len(), "{document}");
     let study = &document["study"];
     let runs = study["runs"].as_array().expect("runs");

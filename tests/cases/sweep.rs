@@ -1,7 +1,7 @@
 //! Requirement: a parameter sweep creates one ordinary job for each combination, counts them by status, and its table has
 //! a line for each with its parameters and its outcome; more load wears more.
 
-use serde_json::{Value, json};
+use serde_json::json;
 use tests::Server;
 
 #[tokio::test]
@@ -15,21 +15,10 @@ async fn a_sweep_over_the_load_ends_in_one_table() {
         "grid": {"/load": [{"kind": "line_force", "n_per_mm": 0.2}, {"kind": "line_force", "n_per_mm": 0.4}],
                  "/interface/friction/coefficient": [0.2, 0.3]}
     });
-    let request = server
-        .client
-        .post(format!("{}/v1/sweeps", server.base))
-        .json(&request);
-    let answer = request.send().await.expect("the service answers");
-    assert_eq!(answer.status(), 202);
-    let sweep: Value = answer.json().await.expect("JSON");
+    let (status, sweep) = server.post_json("/v1/sweeps", &request).await;
+    assert_eq!(status, 202);
     let id = sweep["id"].as_str().expect("a sweep has an id");
-    for job in sweep["jobs"].as_array().expect("jobs") {
-        let job = job["id"].as_str().expect("an id");
-        server
-            .job_when(job, |job| job["finished_at"].is_string())
-            .await;
-    }
-    let (_, sweep) = server.get(&format!("/v1/sweeps/{id}")).await;
+    let sweep = server.batch_ended(&format!("/v1/sweeps/{id}")).await;
     assert_eq!(sweep["counts"]["succeeded"], 4, "{sweep}");
 
     let (status, table) = server.get(&format!("/v1/sweeps/{id}/outcomes")).await;

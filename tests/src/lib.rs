@@ -21,6 +21,7 @@ pub mod server;
 mod server_process;
 mod slurm;
 mod stepped_clock;
+mod waiting;
 mod worker;
 
 pub use bare_preset::{bare_preset, merged};

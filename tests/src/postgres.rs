@@ -86,17 +86,29 @@ impl PostgresServer {
 
     fn ready(mut self) -> Self {
         self.input = self.first.stdin.take();
-        for _ in 0..600 {
+        let is_ready = || {
             let answer = program("pg_isready")
                 .args(["-q", "-h", self.folder()])
                 .status();
-            if answer.expect("pg_isready").success() {
-                return self;
-            }
-            std::thread::sleep(Duration::from_millis(50));
-        }
-        panic!("PostgreSQL does not start");
+            answer.expect("pg_isready").success()
+        };
+        wait_until("PostgreSQL starts", is_ready);
+        self
     }
+}
+
+/// Waits until a condition is met.
+///
+/// # Panics
+/// If it is not in half a minute.
+pub(crate) fn wait_until(what: &str, is_met: impl Fn() -> bool) {
+    for _ in 0..600 {
+        if is_met() {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    panic!("not in time: {what}");
 }
 
 impl Drop for PostgresServer {

@@ -2,9 +2,8 @@
 
 use std::path::PathBuf;
 use std::process::Command;
-use std::time::Duration;
 
-use crate::postgres::{PostgresServer, SETTINGS, new_folder, program};
+use crate::postgres::{PostgresServer, SETTINGS, new_folder, program, wait_until};
 
 impl PostgresServer {
     /// Starts a standby of this server, which from now on confirms every commit.
@@ -24,24 +23,16 @@ impl PostgresServer {
         // A connection that fails is tried again at once, not after 5 s: commits wait for it.
         let settings = [&SETTINGS[..], &["wal_retrieve_retry_interval=100ms"]].concat();
         let standby = Self::of(folder, &settings);
-        self.streams_to_standby();
+        self.wait_for_standby();
         self.answer("ALTER SYSTEM SET synchronous_standby_names = 'b'");
         self.answer("SELECT pg_reload_conf()");
         standby
     }
 
     /// Waits until a standby receives what is written: before, commits would wait for it, and requests with them.
-    fn streams_to_standby(&self) {
-        for _ in 0..600 {
-            let streams = self.answer(
-                "SELECT count(*) FROM pg_stat_replication WHERE application_name = 'b' AND state = 'streaming'",
-            );
-            if streams == "1" {
-                return;
-            }
-            std::thread::sleep(Duration::from_millis(50));
-        }
-        panic!("the standby receives nothing");
+    fn wait_for_standby(&self) {
+        let query = "SELECT count(*) FROM pg_stat_replication WHERE application_name = 'b' AND state = 'streaming'";
+        wait_until("the standby streams", || self.answer(query) == "1");
     }
 
     /// Lets a standby become the primary.

@@ -14,7 +14,7 @@ use crate::program::binary;
 use crate::served_database::address_of_database;
 
 /// Timeout of every wait; no measure of speed.
-const PATIENCE: Duration = Duration::from_mins(4);
+pub(crate) const PATIENCE: Duration = Duration::from_mins(4);
 
 /// File that the logs of services are appended to.
 const KEPT: &str = "FRETWEAR_TEST_LOG";
@@ -267,33 +267,13 @@ impl Server {
         answer(self.client.post(format!("{}{path}", self.base))).await
     }
 
-    /// Submits a specification and returns its job when it has ended.
+    /// Posts a JSON document to a path; returns status and body.
     ///
     /// # Panics
-    /// If it is refused, or has not ended in four minutes.
-    pub async fn ended(&self, spec: &Value) -> Value {
-        let (status, job) = self.submit(spec.to_string()).await;
-        assert_eq!(status, 202, "{job}");
-        let id = job["id"].as_str().expect("a job has an id");
-        self.job_when(id, |job| job["finished_at"].is_string())
-            .await
-    }
-
-    /// Polls a job until it meets a condition.
-    ///
-    /// # Panics
-    /// If it does not in four minutes.
-    pub async fn job_when(&self, id: &str, condition: impl Fn(&Value) -> bool) -> Value {
-        let path = format!("/v1/jobs/{id}");
-        let start = Instant::now();
-        loop {
-            let (_, job) = self.get(&path).await;
-            if condition(&job) {
-                return job;
-            }
-            assert!(start.elapsed() < PATIENCE, "the job gets there: {job}");
-            tokio::time::sleep(Duration::from_millis(20)).await;
-        }
+    /// If the service does not answer.
+    pub async fn post_json(&self, path: &str, document: &Value) -> (u16, Value) {
+        let request = self.client.post(format!("{}{path}", self.base));
+        answer(request.json(document)).await
     }
 }
 

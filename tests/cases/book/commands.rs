@@ -47,16 +47,6 @@ fn run(folder: &Path, base: &str, known: &Known, command: &str) -> (Option<i32>,
     )
 }
 
-/// Waits until all jobs of a sweep have ended.
-async fn ended(server: &Server, sweep: &str) {
-    let (_, sweep) = server.get(&format!("/v1/sweeps/{sweep}")).await;
-    for job in sweep["jobs"].as_array().expect("jobs") {
-        let id = job["id"].as_str().expect("an id");
-        let ended = |job: &serde_json::Value| job["finished_at"].is_string();
-        server.job_when(id, ended).await;
-    }
-}
-
 #[tokio::test]
 #[cfg_attr(not(has_curl), ignore = "needs curl")]
 async fn the_curl_lines_of_the_tutorials_work() {
@@ -80,7 +70,9 @@ async fn check(page: &str) {
     let mut known = Known::default();
     for command in &commands {
         if command.contains("DELETE") {
-            ended(&server, &known.sweep).await;
+            server
+                .batch_ended(&format!("/v1/sweeps/{}", known.sweep))
+                .await;
         }
         let (code, answer) = run(folder.path(), &server.base, &known, command);
         assert_eq!(code, Some(0), "{command}\n{answer}");

@@ -138,11 +138,10 @@ pub(super) async fn submitted(server: &Server, jobs: usize) -> Value {
     let base: Value = serde_json::from_str(SPEC).expect("JSON");
     let [coefficients, amplitudes] = axes(jobs);
     let grid = json!({"/cycles": CYCLES, COEFFICIENT: coefficients, AMPLITUDE: amplitudes});
-    let request = server.client.post(format!("{}/v1/sweeps", server.base));
-    let request = request.json(&json!({"name": "large", "base": base, "grid": grid}));
-    let answer = request.send().await.expect("the service answers");
-    assert_eq!(answer.status(), 202);
-    answer.json().await.expect("JSON")
+    let request = json!({"name": "large", "base": base, "grid": grid});
+    let (status, sweep) = server.post_json("/v1/sweeps", &request).await;
+    assert_eq!(status, 202);
+    sweep
 }
 
 /// Checks that each job of a sweep has succeeded at its first attempt, with its own changes, and has a row in the table.
