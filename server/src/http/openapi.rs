@@ -19,8 +19,6 @@ use crate::http::problem::MEDIA_TYPE;
 use serde_json::{Map, Value, json};
 use solver::record::{Channels, CycleReport, ResistanceReport, SideReport, TemperatureReport};
 
-/// Where the document has examples.
-const EXAMPLES: &str = "#/components/examples/";
 /// Status and description of the problems of operations with a body, which is always a specification or contains one.
 const BODY_PROBLEMS: [(&str, &str); 5] = [
     (

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 
-use super::EXAMPLES;
+use super::examples::EXAMPLES;
 
 /// Where the document has schemas.
 const SCHEMAS: &str = "#/components/schemas/";

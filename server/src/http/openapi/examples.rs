@@ -1,6 +1,9 @@
-//! Examples of bodies of requests. A test sends each of them.
+//! Where the document has examples, and those of bodies of requests. A test sends each of them.
 
 use serde_json::{Value, json};
+
+/// Path of the examples in the document.
+pub(super) const EXAMPLES: &str = "#/components/examples/";
 
 /// Adds an example to the body of a request.
 pub(super) fn complete(path: &str, operation: &mut Value) {

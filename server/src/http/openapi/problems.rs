@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::EXAMPLES;
+use super::examples::EXAMPLES;
 use crate::http::problem::{MEDIA_TYPE, ProblemType};
 
 /// Names of the problem types whose resource a path has to name.
