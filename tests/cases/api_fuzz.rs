@@ -119,7 +119,7 @@ async fn every_answer_conforms([all, of_a_job]: [Requests; 2]) {
 async fn every_answer_to_a_generated_request_conforms_to_the_openapi_document() {
     let all = Requests {
         phases: "fuzzing",
-        random: "5",
+        random: "3",
     };
     let of_a_job = Requests {
         phases: "coverage,fuzzing",

@@ -9,8 +9,9 @@ use solver::cycle::{CycleState, Integrator};
 use solver::sides::Side;
 use tests::calculix;
 
+/// Bodies of 17 half-widths, so that CalculiX takes seconds.
 const SPEC: &str = r#"{
-  "system": {"kind": "cylinder_on_flat"},
+  "system": {"kind": "cylinder_on_flat", "flat_length_mm": 1.2, "flat_height_mm": 1.2, "slider_half_width_mm": 0.6, "slider_height_mm": 1.2},
   "interface": {"friction": {"law": "frictionless"}},
   "load": {"kind": "line_force", "n_per_mm": 18.5},
   "motion": {"kind": "continuous", "distance_mm": 1},

@@ -96,7 +96,8 @@ async fn no_page_contradicts_wcag_a_and_aa() {
     let mut violations = Vec::new();
     for (path, first, complete) in pages {
         browser.emulate(1400, "light").await;
-        browser.open("/docs").await;
+        // Routes of one page differ in the fragment, which loads nothing.
+        browser.open("/healthz").await;
         browser.open(path).await;
         browser.wait_for(first).await;
         browser.wait_for(&format!("Boolean({complete})")).await;
