@@ -70,6 +70,8 @@ mod tests {
 
     use super::*;
     use crate::spec;
+    use crate::spec::diagnostics::Diagnostics;
+    use crate::spec::law::check_plated;
 
     /// Constants of each law by which it wears.
     fn constants(law: WearLawName) -> &'static str {
@@ -172,5 +174,24 @@ mod tests {
             let changes = (worn(0.5) / worn(0.4) - 1.0).abs() > 1e-6;
             assert_eq!(changes, properties(law).by_friction, "{law:?}");
         }
+    }
+
+    #[test]
+    fn the_rates_of_these_laws_are_the_same_in_every_state() {
+        for law in WearLawName::ALL {
+            let of_engine = scene(law, 0.4).scene.receptacle.wear.expect("a law");
+            let uniform = of_engine.uniform().is_some();
+            assert_eq!(uniform, properties(law).uniform, "{law:?}");
+        }
+    }
+
+    #[test]
+    fn the_fault_of_a_plating_lists_the_laws_that_it_may_wear_by() {
+        let law = scene(WearLawName::Rhee, 0.4).scene.receptacle.wear;
+        let mut diagnostics = Diagnostics::default();
+        check_plated("/plating/receptacle/0/wear", law, &mut diagnostics);
+        let detail = "a plating and its base wear by laws whose rate is the same in every state: archard, sarkar, saracibar, \
+                      dissipated_energy; a bare part, with the `plating` `[]`, wears by any";
+        assert_eq!(diagnostics.into_faults()[0].detail, detail);
     }
 }

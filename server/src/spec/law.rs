@@ -37,6 +37,7 @@ use crate::spec::plating_choice::PlatingChoice;
 use crate::spec::sourced::{Sourced, assumed, source};
 use crate::spec::system::{ArchardPreset, Preset};
 pub(super) use numbers::numbers;
+use properties::properties;
 use wearing_side::WearingSide;
 
 /// Hz, of a wear test: from creep to ultrasonic fretting.
@@ -181,8 +182,15 @@ pub(super) fn check_plated(
     diagnostics: &mut Diagnostics,
 ) {
     if law.is_some_and(|law| law.uniform().is_none()) {
-        let detail = "a plating and its base wear by laws whose rate is the same in every state: archard, sarkar, saracibar, \
-                      dissipated_energy; a bare part, with the `plating` `[]`, wears by any";
+        let uniform = WearLawName::ALL
+            .into_iter()
+            .filter(|law| properties(*law).uniform);
+        let names: Vec<&str> = uniform.map(WearLawName::as_str).collect();
+        let detail = format!(
+            "a plating and its base wear by laws whose rate is the same in every state: {}; a bare part, with the `plating` `[]`, \
+             wears by any",
+            names.join(", ")
+        );
         diagnostics.fault(pointer, detail);
     }
 }

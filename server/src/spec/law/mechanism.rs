@@ -29,7 +29,7 @@ pub(super) fn resolve(
         .chain(&severe_oxidation::CONSTANTS);
     let fields: Vec<&str> = own.iter().chain(constants).copied().collect();
     diagnostics.check_fields(&side.pointer, given, &fields, "oxidation");
-    let (mut filled, _) = wear_coefficient::resolve(side, given, diagnostics);
+    let mut filled = wear_coefficient::with_hardness(side, given, diagnostics);
     let pointer = side.field("transition_speed_mm_s");
     let transition_mm_s =
         diagnostics.or_default(&pointer, given.transition_speed_mm_s, assumed(SLOWEST_MM_S));

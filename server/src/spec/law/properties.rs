@@ -4,6 +4,8 @@ use api::spec::{WearLaw, WearLawName};
 
 /// Dependences of the rate of a law besides pressure and slip, and the constants that set it.
 pub(in crate::spec) struct Properties {
+    /// The rate is the same in every state, as that of a layer or a base of a plating must be.
+    pub(in crate::spec) uniform: bool,
     /// The rate depends on the coefficient of friction.
     pub(in crate::spec) by_friction: bool,
     /// The rate is in proportion to the inverse of the hardness.
@@ -82,56 +84,67 @@ const FACTOR_OF_REPETITIONS: Constant = Constant {
 pub(in crate::spec) fn properties(law: WearLawName) -> Properties {
     match law {
         WearLawName::Archard => Properties {
+            uniform: true,
             by_friction: false,
             by_hardness: true,
             constants: &[K, K_OVER_H],
         },
         WearLawName::Sarkar | WearLawName::Saracibar => Properties {
+            uniform: true,
             by_friction: true,
             by_hardness: true,
             constants: &[K, K_OVER_H],
         },
         WearLawName::DissipatedEnergy => Properties {
+            uniform: true,
             by_friction: true,
             by_hardness: false,
             constants: &[ENERGY],
         },
         WearLawName::Barwell => Properties {
+            uniform: false,
             by_friction: false,
             by_hardness: true,
             constants: &[K, K_OVER_H, DOSE],
         },
         WearLawName::Quinn => Properties {
+            uniform: false,
             by_friction: false,
             by_hardness: true,
             constants: &[GROWTH_BY_MASS],
         },
         WearLawName::MildOxidation => Properties {
+            uniform: false,
             by_friction: false,
             by_hardness: true,
             constants: &[GROWTH],
         },
         WearLawName::SevereOxidation => Properties {
+            uniform: false,
             by_friction: true,
             by_hardness: true,
             constants: &[MOLTEN],
         },
         WearLawName::Oxidation => Properties {
+            uniform: false,
             by_friction: true,
             by_hardness: true,
-            constants: &[K, K_OVER_H, GROWTH, MOLTEN],
+            constants: &[K, GROWTH, MOLTEN],
         },
         WearLawName::Rhee => Properties {
+            uniform: false,
             by_friction: false,
             by_hardness: false,
             constants: &[FACTOR_OF_TIME],
         },
         WearLawName::LoadRepetition => Properties {
+            uniform: false,
             by_friction: false,
             by_hardness: false,
             constants: &[FACTOR_OF_REPETITIONS],
         },
         WearLawName::StrainHardening => Properties {
+            uniform: false,
             by_friction: false,
             by_hardness: false,
             constants: &[FACTOR_OF_STRAIN],

@@ -51,6 +51,20 @@ pub(super) fn resolve(
     (filled, k_over_h)
 }
 
+/// Resolves k and the hardness of a law that takes no ratio of them; returns the law with its hardness filled in.
+pub(super) fn with_hardness(
+    side: &WearingSide<'_>,
+    given: &WearLaw,
+    diagnostics: &mut Diagnostics,
+) -> WearLaw {
+    let needs = "write `k`, beside the hardness of the law or of the material";
+    diagnostics.required(&side.field("k"), given.k, &K, needs);
+    WearLaw {
+        hardness_mpa: hardness(side, given, diagnostics),
+        ..given.clone()
+    }
+}
+
 /// The hardness of a wearing surface: given, or the material's.
 pub(super) fn hardness(
     side: &WearingSide<'_>,

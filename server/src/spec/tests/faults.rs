@@ -1,5 +1,7 @@
 //! Faults of specifications, and warnings of values in another unit.
 
+use api::spec::WearLawName;
+
 use super::*;
 
 #[test]
@@ -261,4 +263,38 @@ fn a_fault_of_the_whole_scene_names_the_field_that_causes_it() {
         };
         assert_eq!(found[0].pointer, pointer, "{found:?}");
     }
+}
+
+/// Faults of a receptacle whose law has these fields alone.
+fn faults_of_law(law: WearLawName, fields: &str) -> Vec<Fault> {
+    let name = law.as_str();
+    let text = format!(
+        r#"{{"system":{{"kind":"cylinder_on_flat"}},"materials":{{"receptacle":{{"youngs_modulus_mpa":1e5,"poisson_ratio":0.3}}}},
+        "interface":{{"wear":{{"slider":null,"receptacle":{{"law":"{name}"{fields}}}}}}}}}"#
+    );
+    match read(text.as_bytes()) {
+        Err(Refused::Faults(faults)) => faults,
+        Err(Refused::Parse(error)) => panic!("{error}"),
+        Ok(_) => Vec::new(),
+    }
+}
+
+#[test]
+fn faults_of_a_law_ask_for_fields_that_it_takes() {
+    let mut asked = 0;
+    for law in WearLawName::ALL {
+        let lacking = faults_of_law(law, "");
+        let details: String = lacking.iter().map(|fault| fault.detail.as_str()).collect();
+        for (field, range) in law::numbers() {
+            if !details.contains(&format!("`{field}`")) {
+                continue;
+            }
+            asked += 1;
+            let given = format!(r#","{field}":{}"#, range.end());
+            let refused = faults_of_law(law, &given);
+            let foreign = |fault: &Fault| fault.detail.contains("does not belong to");
+            assert!(!refused.iter().any(foreign), "{law:?}: {refused:?}");
+        }
+    }
+    assert!(asked >= 10, "{asked} fields");
 }
