@@ -22,7 +22,7 @@ export function result_card({ summary, spec }) {
       ["sliding distance", `${number(summary.sliding_distance_mm, 1e-3)} m`],
       ["peak pressure, unworn → worn", `${number(initial.peak_pressure_mpa)} → ${number(summary.peak_pressure_mpa)} MPa`],
       ["contact half-width, unworn → worn", `${length(initial.contact_half_width_mm)} → ${length(summary.contact_half_width_mm)}`],
-      ["force", extent?.force_n == null ? null : `${number(extent.force_n)} N`],
+      ["force", extent?.load_n == null ? null : `${number(extent.load_n)} N`],
       ["dissipated energy", summary.dissipated_energy_mj_per_mm == null ? null : `${number(summary.dissipated_energy_mj_per_mm)} mJ/mm`],
       ["contact resistance", resistance?.initial == null ? null : `${number(resistance.initial)} → ${number(resistance.final)} mΩ`],
       ["thinnest plating that remains", plating_left(spec, worn)],

@@ -231,6 +231,33 @@ mod tests {
         }
     }
 
+    /// A name of a quantity that a document does not have is read as absent, and its row is left out without an error.
+    #[test]
+    fn quantities_that_pages_read_are_those_of_the_interface() {
+        const UNITS: [&str; 12] = [
+            "mm", "mm2", "mm3", "um", "n", "mpa", "mohm", "c", "hz", "s", "mj", "percent",
+        ];
+        let interface = crate::http::openapi::text();
+        let mut read = 0;
+        for asset in ASSETS.iter().filter(|asset| asset.path.ends_with(".js")) {
+            if asset.path == "plotly.js" {
+                continue;
+            }
+            let text = text(asset);
+            for after in text.split('.').skip(1) {
+                let name = after.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+                let name = name.into_iter().next().unwrap_or_default();
+                let unit = name.rsplit_once('_').map_or("", |(_, unit)| unit);
+                if UNITS.contains(&unit) {
+                    read += 1;
+                    let quoted = format!("\"{name}\"");
+                    assert!(interface.contains(&quoted), "{}: {name}", asset.path);
+                }
+            }
+        }
+        assert!(read > 50, "{read} quantities");
+    }
+
     #[tokio::test]
     async fn every_link_of_the_book_leads_to_a_page() {
         let service = Service::new().await;
