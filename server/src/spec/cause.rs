@@ -1,6 +1,6 @@
 //! The field that causes a fault of the whole scene: the given one without which there would be none.
 
-use api::spec::{Spec, SystemKind};
+use api::spec::{Model, Spec, System, SystemKind};
 
 use crate::spec::system;
 
@@ -27,6 +27,17 @@ const FIELDS: [Field; 6] = [
     }),
 ];
 
+/// A length of the model: its name and its field.
+type Length = (&'static str, fn(&mut Model) -> &mut Option<f64>);
+
+/// Lengths of the model, on which strains and mesh depend as on those of the system.
+const LENGTHS: [Length; 4] = [
+    ("radius_z_mm", |model| &mut model.radius_z_mm),
+    ("crown_radius_mm", |model| &mut model.crown_radius_mm),
+    ("width_mm", |model| &mut model.width_mm),
+    ("outer_diameter_mm", |model| &mut model.outer_diameter_mm),
+];
+
 /// Returns the pointer of the first given field that, left out, would make a specification possible; another one if none
 /// alone does.
 pub(super) fn of_fault(
@@ -50,5 +61,35 @@ pub(super) fn of_fault(
             return format!("/system/{name}");
         }
     }
-    otherwise.to_owned()
+    let lengths = LENGTHS.iter().filter_map(|&(name, field)| {
+        let mut without = spec.clone();
+        let was_given = without
+            .model
+            .as_mut()
+            .is_some_and(|model| field(model).take().is_some());
+        was_given.then(|| (format!("/model/{name}"), without))
+    });
+    let mut lengths: Vec<(String, Spec)> = lengths.collect();
+    if let Some(cause) = lengths.iter().position(|(_, without)| is_possible(without)) {
+        return lengths.swap_remove(cause).0;
+    }
+    // A model may require the length: nothing shows then that another field is the cause, unless it is given as well.
+    match lengths.into_iter().next() {
+        Some((pointer, _)) if !is_given(spec, otherwise) => pointer,
+        _ => otherwise.to_owned(),
+    }
+}
+
+/// Returns `true` if a specification says more of a part than its kind.
+fn is_given(spec: &Spec, part: &str) -> bool {
+    match part {
+        "/load" => spec.load.is_some(),
+        _ => {
+            spec.system
+                != System {
+                    kind: spec.system.kind.clone(),
+                    ..System::default()
+                }
+        }
+    }
 }

@@ -257,6 +257,19 @@ fn a_fault_of_the_whole_scene_names_the_field_that_causes_it() {
             r#""system":{"kind":"fuzz_button"},"load":{"kind":"pressure","mpa":50}"#,
             "/load",
         ),
+        (
+            r#""system":{"kind":"sd_card"},"model":{"dimension":"point","radius_z_mm":0.005}"#,
+            "/model/radius_z_mm",
+        ),
+        (
+            r#""system":{"kind":"sd_card"},"model":{"dimension":"extruded","width_mm":0.002}"#,
+            "/model/width_mm",
+        ),
+        (
+            r#""system":{"kind":"sd_card"},"load":{"kind":"force","n":60},"motion":{"kind":"reciprocating","amplitude_mm":0.1},
+            "model":{"dimension":"extruded","width_mm":0.2}"#,
+            "/load",
+        ),
     ] {
         let Err(Refused::Faults(found)) = read(format!("{{{fields}}}").as_bytes()) else {
             panic!("{pointer}");
