@@ -96,9 +96,8 @@ impl Solver {
                 work.increments = 1;
                 work.response_entries += std::mem::take(&mut self.response.entries);
                 let (coupling, path) = (&self.geometry.coupling, &self.iterate.path);
-                let area = self
-                    .wear
-                    .recession(coupling, pair, path, &mut self.recession);
+                let depths = &mut self.recession;
+                let area = self.wear.recession(coupling, pair, path, depths);
                 let depth = self.recession.as_slices();
                 let worn = Recession { depth, area };
                 let solution = self.solution(pair, surfaces);
