@@ -61,21 +61,23 @@ pub(super) fn of_fault(
             return format!("/system/{name}");
         }
     }
-    let lengths = LENGTHS.iter().filter_map(|&(name, field)| {
-        let mut without = spec.clone();
-        let was_given = without
-            .model
-            .as_mut()
-            .is_some_and(|model| field(model).take().is_some());
-        was_given.then(|| (format!("/model/{name}"), without))
-    });
-    let mut lengths: Vec<(String, Spec)> = lengths.collect();
-    if let Some(cause) = lengths.iter().position(|(_, without)| is_possible(without)) {
-        return lengths.swap_remove(cause).0;
+    for (name, field) in LENGTHS {
+        let leave_out = |spec: &mut Spec| {
+            if let Some(model) = &mut spec.model {
+                *field(model) = None;
+            }
+        };
+        if is_cause(&leave_out) {
+            return format!("/model/{name}");
+        }
     }
     // A model may require the length: nothing shows then that another field is the cause, unless it is given as well.
-    match lengths.into_iter().next() {
-        Some((pointer, _)) if !is_given(spec, otherwise) => pointer,
+    let mut model = spec.model.clone().unwrap_or_default();
+    let given = LENGTHS
+        .iter()
+        .find(|(_, field)| field(&mut model).is_some());
+    match given {
+        Some((name, _)) if !is_given(spec, otherwise) => format!("/model/{name}"),
         _ => otherwise.to_owned(),
     }
 }
