@@ -234,8 +234,9 @@ mod tests {
     /// A name of a quantity that a document does not have is read as absent, and its row is left out without an error.
     #[test]
     fn quantities_that_pages_read_are_those_of_the_interface() {
-        const UNITS: [&str; 12] = [
-            "mm", "mm2", "mm3", "um", "n", "mpa", "mohm", "c", "hz", "s", "mj", "percent",
+        const UNITS: [&str; 15] = [
+            "mm", "mm2", "mm3", "um", "n", "mpa", "mohm", "c", "hz", "s", "mj", "percent", "deg",
+            "mb", "cycles",
         ];
         let interface = crate::http::openapi::text();
         let mut read = 0;
