@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 
 use super::examples::EXAMPLES;
 
-/// Where the document has schemas.
+/// Path of the schemas in the document.
 const SCHEMAS: &str = "#/components/schemas/";
 
 #[derive(Default, Deserialize)]

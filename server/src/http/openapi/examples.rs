@@ -1,4 +1,4 @@
-//! Where the document has examples, and those of bodies of requests. A test sends each of them.
+//! Examples of bodies of requests, each of which a test sends, and the path of all examples in the document.
 
 use serde_json::{Value, json};
 
