@@ -14,7 +14,7 @@ use solver::SolveError;
 use solver::checkpoint::Resumable;
 use solver::error_control;
 use solver::observer::{self, Event, Observer};
-use solver::record::{Position, Snapshot};
+use solver::record::{Excess, Position, Snapshot};
 use solver::scene::Scene;
 
 use crate::export::documents::{JSON, SVG, VTU};
@@ -23,6 +23,7 @@ use crate::export::vtu::VtuError;
 use crate::export::{history, life, line, line_maps, maps, mission, pictures, vtu};
 use crate::spec::Resolved;
 use crate::spec::scatter::FollowsProduct;
+use crate::words::{restarts, warnings};
 use checkpoint::{Checkpoint, CheckpointPolicy, EncodedCheckpoint};
 use cost::Stopwatch;
 pub use cost::{children_cpu_s, cpu_s, thread_cpu_s};
@@ -249,7 +250,7 @@ impl Observer for Recorder<'_> {
                 ChildMessage::Snapshot(Box::new(history::snapshot(snapshot)))
             }
             Event::Checkpoint(run) => return self.checkpoint(run),
-            Event::Restart(reason) => ChildMessage::Restarted(reason.to_owned()),
+            Event::Restart(cause) => ChildMessage::Restarted(restarts::restart(&cause)),
         };
         (self.on)(line)
     }
@@ -260,7 +261,7 @@ impl Observer for Recorder<'_> {
         self.emit(ChildMessage::Phase(phase));
     }
 
-    fn on_refined(&mut self, errors: &str) {
-        self.emit(ChildMessage::Refined(errors.to_owned()));
+    fn on_refined(&mut self, errors: &[Excess]) {
+        self.emit(ChildMessage::Refined(warnings::all_excess(errors)));
     }
 }

@@ -118,12 +118,11 @@ impl EffectsPlan {
             .collect()
     }
 
-    /// Effects that are beyond their limits and not simulated, each with what a result misses by it, in words.
-    pub fn missed(&self) -> impl Iterator<Item = String> {
-        self.decisions.iter().filter_map(|decision| {
-            let missed = decision.missed()?;
-            Some(format!("{}: {missed}", decision.effect.name()))
-        })
+    /// Effects that are beyond their limits and not simulated.
+    pub fn missed(&self) -> impl Iterator<Item = &Decision> {
+        self.decisions
+            .iter()
+            .filter(|decision| decision.is_missed())
     }
 
     /// Relative change of the outputs by all skipped effects.

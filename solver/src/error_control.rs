@@ -23,8 +23,8 @@ pub use companions::companion_scenes;
 use crate::SolveError;
 use crate::checkpoint::{Checkpoint, EarlierRuns, Finished};
 use crate::effects::{self, EffectsPlan};
-use crate::observer::{Event, Observer, Phase};
-use crate::record::{Compared, Errors, Outcome, Quantity, Summary};
+use crate::observer::{Event, Observer, Phase, Restart};
+use crate::record::{Compared, Errors, Excess, Outcome, Summary, Warning};
 use crate::run;
 use crate::scene::{Refinement, Scene};
 use companion_threads::CompanionThreads;
@@ -60,7 +60,8 @@ fn control(
 ) -> Result<Summary, SolveError> {
     let plan = effects::plan(scene);
     let mut done = with_companions(scene, &plan, from, observer)?;
-    done.warnings.extend(plan.missed());
+    let missed = plan.missed().cloned();
+    done.warnings.extend(missed.map(Warning::Missed));
     Ok(done)
 }
 
@@ -210,7 +211,8 @@ impl<'scope, 'env> Runs<'scope, 'env> {
         if !errors.is_some_and(|errors| balance::is_worth_a_restart(self.scene, &errors)) {
             return Ok(ControlFlow::Break(done));
         }
-        let restart = Event::Restart(&done.warnings.join("; "));
+        let excess = self.excess(errors);
+        let restart = Event::Restart(Restart::Finer(&excess));
         if self.observer.on(restart).is_break() {
             done.outcome = Outcome::Stopped;
             return Ok(ControlFlow::Break(done));
@@ -227,10 +229,8 @@ impl<'scope, 'env> Runs<'scope, 'env> {
         let refinement = errors.map_or(Refinement::NONE, |errors| {
             balance::finer(self.scene, &errors)
         });
-        let tolerance = self.scene.accuracy.tolerance;
-        let excess = errors.iter().flat_map(|errors| excess(errors, tolerance));
-        let excess: Vec<_> = excess.map(|(_, text)| text).collect();
-        self.observer.on_refined(&excess.join("; "));
+        let excess = self.excess(errors);
+        self.observer.on_refined(&excess);
         match self.solve(&companions::refined(self.scene, refinement)) {
             Ok(mut done) => {
                 if done.outcome != Outcome::Stopped {
@@ -241,8 +241,8 @@ impl<'scope, 'env> Runs<'scope, 'env> {
             }
             Err(SolveError::Checkpoint(mismatch)) => return Err(mismatch.into()),
             Err(error) => {
-                let reason = format!("the finer run has no solution: {error}");
-                if self.observer.on(Event::Restart(&reason)).is_break() {
+                let restart = Restart::NoFinerRun(&error);
+                if self.observer.on(Event::Restart(restart)).is_break() {
                     return Err(error);
                 }
             }
@@ -256,7 +256,7 @@ impl<'scope, 'env> Runs<'scope, 'env> {
         let mut done = self.solve(self.scene)?;
         if done.outcome != Outcome::Stopped {
             self.state_first_errors(&mut done);
-            done.warnings.push("a finer run has no solution".to_owned());
+            done.warnings.push(Warning::NoFinerRun);
         }
         Ok(done)
     }
@@ -269,6 +269,15 @@ impl<'scope, 'env> Runs<'scope, 'env> {
     fn first_errors(&self) -> Option<Errors> {
         let first = self.earlier.runs.first()?.as_ref()?;
         self.estimate(first, Refinement::NONE).errors()
+    }
+
+    /// The errors outside of the tolerance.
+    fn excess(&self, errors: Option<Errors>) -> Vec<Excess> {
+        let tolerance = self.scene.accuracy.tolerance;
+        errors
+            .iter()
+            .flat_map(|errors| errors.outside(tolerance))
+            .collect()
     }
 
     /// States the errors of the run with the settings of the tolerance.
@@ -299,35 +308,13 @@ impl<'scope, 'env> Runs<'scope, 'env> {
 fn state_errors(done: &mut Summary, errors: Option<Errors>, tolerance: f64) {
     done.errors = errors;
     let Some(errors) = errors else {
-        done.warnings
-            .push("errors are not estimated: a coarse companion has no solution".to_owned());
+        done.warnings.push(Warning::NoCompanion);
         return;
     };
-    for (quantity, text) in excess(&errors, tolerance) {
-        done.warnings.push(text);
-        if balance::is_decisive(quantity) && done.outcome == Outcome::Completed {
+    for excess in errors.outside(tolerance) {
+        done.warnings.push(Warning::Excess(excess));
+        if balance::is_decisive(excess.quantity) && done.outcome == Outcome::Completed {
             done.outcome = Outcome::OutsideTolerance;
         }
     }
-}
-
-/// The errors outside of the tolerance, in words.
-fn excess(errors: &Errors, tolerance: f64) -> impl Iterator<Item = (Quantity, String)> {
-    errors.outside(tolerance).map(move |quantity| {
-        let name = match quantity {
-            Quantity::WornDepth => "worn depth",
-            Quantity::ScarHalfWidth => "scar width",
-            Quantity::WornArea => "worn area",
-            Quantity::PeakPressure => "peak pressure",
-            Quantity::ContactResistance => "contact resistance",
-        };
-        let error = errors.parts(quantity).relative;
-        let allowed = quantity.allowed(tolerance);
-        let text = format!(
-            "the estimated error of the {name} is {:.2} %, the tolerance allows {:.2} %",
-            100.0 * error,
-            100.0 * allowed
-        );
-        (quantity, text)
-    })
 }

@@ -14,6 +14,7 @@ mod report;
 mod scar;
 mod snapshot;
 mod summary;
+mod warning;
 mod worn_area;
 
 pub use crate::cycle::{BlockWear, Checks, FrictionLoop};
@@ -23,7 +24,7 @@ pub use crate::schedule::stops::Outcome;
 pub use crate::sides::Side;
 pub use channel::{Channel, Channels};
 pub use compared::{Compared, Quantity};
-pub use errors::{ErrorParts, Errors};
+pub use errors::{ErrorParts, Errors, Excess};
 pub(crate) use exposure::{Exposed, WornSurface};
 pub use history::{Column, Layer, LineColumns, Record};
 pub use life::{CriterionState, Life};
@@ -38,4 +39,5 @@ pub use snapshot::{
 };
 pub(crate) use summary::worn_area_residual;
 pub use summary::{Initial, Resolution, Summary};
+pub use warning::Warning;
 pub(crate) use worn_area::WornArea;

@@ -8,8 +8,8 @@ use crate::recorder::{Recorder, solve};
 use crate::verify_plating::{THICKNESS, plated};
 use crate::verify_resume::resumes_to_the_same_bits;
 use solver::law::resistance::{Deformation, Film, Growth};
-use solver::record::{CycleReport, Outcome, ResistanceReport};
-use solver::scene::{Accuracy, Conduction, Electrical, Metal, Scene, Spots, WearLaw};
+use solver::record::{CycleReport, Outcome, ResistanceReport, Warning};
+use solver::scene::{Accuracy, Conduction, Effect, Electrical, Metal, Scene, Spots, WearLaw};
 use solver::sides::{Side, Sides};
 
 const GOLD: f64 = 2.21e-8;
@@ -292,8 +292,7 @@ fn a_result_names_what_it_misses() {
     let mut scene = limited(filmed(AMPLITUDES[0], None), &[], &[]);
     scene.cycles = 1;
     let (summary, _) = solve(&scene).expect("the scene can be solved");
-    let missed =
-        |text: &&String| text.starts_with("across_width: ") && text.contains("times sooner");
+    let missed = |warning: &&Warning| matches!(warning, Warning::Missed(decision) if decision.effect == Effect::AcrossWidth);
     assert_eq!(
         summary.warnings.iter().filter(missed).count(),
         1,

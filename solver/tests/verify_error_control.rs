@@ -9,8 +9,8 @@ use std::ops::ControlFlow;
 
 use solver::checkpoint::Checkpoint;
 use solver::error_control;
-use solver::observer::{Event, Observer};
-use solver::record::{Outcome, Quantity, Summary};
+use solver::observer::{Event, Observer, Restart};
+use solver::record::{Excess, Outcome, Quantity, Summary, Warning};
 use solver::scene::Scene;
 use solver::sides::Side;
 
@@ -106,23 +106,24 @@ fn random_scenes_are_within_their_tolerance_and_their_estimates() {
 pub(crate) struct Delivered {
     pub(crate) recorder: Recorder,
     pub(crate) checkpoints: Vec<Checkpoint>,
-    pub(crate) restarts: Vec<String>,
+    pub(crate) restarts: Vec<Vec<Excess>>,
     /// Errors that finer runs were begun or resumed for.
-    pub(crate) refined: Vec<String>,
+    pub(crate) refined: Vec<Vec<Excess>>,
 }
 
 impl Observer for Delivered {
     fn on(&mut self, event: Event<'_>) -> ControlFlow<()> {
         match event {
             Event::Checkpoint(checkpoint) => self.checkpoints.push(checkpoint.checkpoint()),
-            Event::Restart(reason) => self.restarts.push(reason.to_owned()),
+            Event::Restart(Restart::Finer(excess)) => self.restarts.push(excess.to_vec()),
             Event::Cycle(_) | Event::Snapshot(_) => {}
+            Event::Restart(other) => panic!("{other:?}"),
         }
         self.recorder.on(event)
     }
 
-    fn on_refined(&mut self, errors: &str) {
-        self.refined.push(errors.to_owned());
+    fn on_refined(&mut self, errors: &[Excess]) {
+        self.refined.push(errors.to_vec());
     }
 }
 
@@ -138,7 +139,9 @@ fn a_run_outside_its_tolerance_restarts_and_ends_within() {
     let summary = error_control::solve(&scene, &mut delivered).expect("it has a solution");
     assert_eq!(delivered.restarts.len(), 1, "{:?}", delivered.restarts);
     assert!(
-        delivered.restarts[0].contains("worn depth"),
+        delivered.restarts[0]
+            .iter()
+            .any(|excess| excess.quantity == Quantity::WornDepth),
         "{:?}",
         delivered.restarts
     );
@@ -202,7 +205,8 @@ fn a_run_that_cannot_hold_its_tolerance_says_so() {
         summary
             .warnings
             .iter()
-            .any(|w| w.contains("worn depth") && w.contains("0.10 %")),
+            .any(|warning| matches!(warning, Warning::Excess(excess)
+                if excess.quantity == Quantity::WornDepth && (excess.allowed - 0.001).abs() < 1e-15)),
         "{:?}",
         summary.warnings
     );

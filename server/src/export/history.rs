@@ -13,6 +13,7 @@ use solver::record::{self, Layer, Record, Side, SideReport};
 use solver::scene::Effect;
 
 use crate::export::{line, resistance, tractions};
+use crate::words::warnings;
 
 /// The phase of a job.
 pub fn phase(phase: observer::Phase) -> Phase {
@@ -84,7 +85,7 @@ pub fn summary(summary: &record::Summary, cost: Cost, life: Vec<LifeEntry>) -> S
             r#final: found.contact_temperature_c,
             highest: found.highest_temperature_c,
         });
-        warnings: summary.warnings.clone();
+        warnings: summary.warnings.iter().map(warnings::warning).collect();
         initial: document!(Initial of summary.initial; peak_pressure_mpa, contact_half_width_mm);
         accuracy: document!(
             AccuracyReached of resolution;

@@ -11,6 +11,7 @@ use solver::scene::{Friction, Scene};
 
 use crate::spec::diagnostics::{Diagnostics, shortened};
 use crate::spec::suggestion::did_you_mean;
+use crate::words::decisions;
 
 /// Names of all effects.
 pub(crate) fn names() -> Vec<&'static str> {
@@ -148,9 +149,9 @@ pub(crate) fn warnings(scene: &Scene) -> Vec<Fault> {
                 detail: format!("the contact melts: {}", decision.reason),
             });
         }
-        decision.missed().map(|detail| Fault {
+        decision.is_missed().then(|| Fault {
             pointer: format!("/effects/{}", decision.effect.name()),
-            detail,
+            detail: decisions::missed(&decision),
         })
     });
     off.collect()

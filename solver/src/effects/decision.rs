@@ -4,7 +4,7 @@ use crate::scene::Effect;
 use serde::{Deserialize, Serialize};
 
 /// Decision about one effect.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Decision {
     /// The effect.
     pub effect: Effect,
@@ -19,16 +19,10 @@ pub struct Decision {
 }
 
 impl Decision {
-    /// Error of the result in words, where the effect is beyond its limit and not simulated.
-    pub fn missed(&self) -> Option<String> {
-        let indicator = self.indicator?;
-        let is_missed = !self.verdict.is_on() && indicator.value() > indicator.threshold;
-        let calls = if self.effect.is_available() && self.is_available {
-            "the scene calls for it"
-        } else {
-            "it is beyond its limit and not simulated"
-        };
-        is_missed.then(|| format!("{calls}: {}", self.reason))
+    /// Returns `true` if the effect is beyond its limit and not simulated.
+    pub fn is_missed(&self) -> bool {
+        let is_beyond = |indicator: Indicator| indicator.value() > indicator.threshold;
+        !self.verdict.is_on() && self.indicator.is_some_and(is_beyond)
     }
 
     /// Returns `true` if a run may still require the effect: it is skipped, not switched off, and can be simulated in the scene.
@@ -60,7 +54,7 @@ impl Verdict {
 }
 
 /// Relative change of the outputs by an effect.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Indicator {
     /// For the unworn contact.
     pub unworn: f64,

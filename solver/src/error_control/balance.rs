@@ -6,7 +6,7 @@
 use super::companions;
 use crate::model::Layout;
 use crate::number::real;
-use crate::record::{ErrorParts, Errors, Quantity};
+use crate::record::{ErrorParts, Errors, Excess, Quantity};
 use crate::scene::{Accuracy, Refinement, Scene};
 
 /// Exponents a_k of the cost in mesh, increments and jumps: random scenes (`tolerance_table`) take 2.6 to 5, 1.6 to 1.9 and
@@ -40,7 +40,13 @@ pub(super) fn finer(scene: &Scene, errors: &Errors) -> Refinement {
     let powers = cost_powers(scene);
     let all_shares: f64 = powers.iter().sum();
     let mut factors = [1.0_f64; 3];
-    for quantity in errors.outside(tolerance).filter(|q| is_decisive(*q)) {
+    for Excess {
+        quantity, allowed, ..
+    } in errors.outside(tolerance)
+    {
+        if !is_decisive(quantity) {
+            continue;
+        }
         let ErrorParts {
             mesh,
             increments,
@@ -50,7 +56,7 @@ pub(super) fn finer(scene: &Scene, errors: &Errors) -> Refinement {
         } = errors.parts(quantity);
         let parts = [mesh, increments, jump];
         let fixed: f64 = (0..3).filter(|k| !free[*k]).map(|k| parts[k]).sum();
-        let allowed = quantity.allowed(tolerance) - effects;
+        let allowed = allowed - effects;
         if fixed >= allowed {
             continue;
         }

@@ -7,7 +7,7 @@ use crate::number::real_cycles;
 use crate::record::{CycleReport, Life};
 
 /// A quantity whose error is estimated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Quantity {
     /// Largest worn depth.
     WornDepth,

@@ -20,6 +20,17 @@ pub struct ErrorParts {
     pub effects: f64,
 }
 
+/// An error outside of the tolerance.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Excess {
+    /// The quantity.
+    pub quantity: Quantity,
+    /// Estimated relative error.
+    pub relative: f64,
+    /// The error that the tolerance allows.
+    pub allowed: f64,
+}
+
 /// Estimated errors of a run, each that of the worse side.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Errors {
@@ -58,11 +69,14 @@ impl Errors {
         }
     }
 
-    /// The quantities whose error exceeds what a tolerance allows them.
-    pub fn outside(&self, tolerance: f64) -> impl Iterator<Item = Quantity> {
-        Quantity::ALL
-            .into_iter()
-            .filter(move |q| self.parts(*q).relative > q.allowed(tolerance))
+    /// The errors that exceed what a tolerance allows them.
+    pub fn outside(&self, tolerance: f64) -> impl Iterator<Item = Excess> {
+        let all = Quantity::ALL.into_iter().map(move |quantity| Excess {
+            quantity,
+            relative: self.parts(quantity).relative,
+            allowed: quantity.allowed(tolerance),
+        });
+        all.filter(|error| error.relative > error.allowed)
     }
 }
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::contact::Work;
 use crate::cycle::{BlockWear, Checks, CycleState};
 use crate::effects::{Crossing, Verdict};
-use crate::record::{Compared, CycleReport, Errors, Life};
+use crate::record::{Compared, CycleReport, Errors, Life, Warning};
 use crate::scene::Effect;
 use crate::schedule::stops::Outcome;
 use crate::sides::Sides;
@@ -36,8 +36,8 @@ pub struct Summary {
     pub checks: Checks,
     /// Estimated errors; `None` without companions.
     pub errors: Option<Errors>,
-    /// Which errors exceed what the tolerance allows, in words.
-    pub warnings: Vec<String>,
+    /// Doubts about the result.
+    pub warnings: Vec<Warning>,
     /// The decision about each effect at the end.
     pub effects: Vec<(Effect, Verdict)>,
     /// Skipped effects that the run has required, in their order.

@@ -12,7 +12,7 @@ use crate::cycle::{CycleState, Integrator, MissionState};
 use crate::effects::EffectsPlan;
 use crate::electrical::ElectricalState;
 use crate::model::{self, Model};
-use crate::observer::{Event, Observer, Phase};
+use crate::observer::{Event, Observer, Phase, Restart};
 use crate::record::{self, Compared, Initial, Life};
 use crate::scene::Scene;
 
@@ -53,12 +53,12 @@ pub(super) fn load_unworn(
             Err(error) => error,
         };
         let required = plan.required_after_failure(0);
-        let reason = match required.first() {
-            _ if error.needs_wider_zones() => error.to_string(),
-            Some(first) => format!("without {}: {error}", first.effect.name()),
+        let restart = match required.first() {
+            _ if error.needs_wider_zones() => Restart::WiderZones(&error),
+            Some(first) => Restart::Without(first.effect, &error),
             None => return Err(error),
         };
-        if observer.on(Event::Restart(&reason)).is_break() {
+        if observer.on(Event::Restart(restart)).is_break() {
             return Err(error);
         }
         if error.needs_wider_zones() {

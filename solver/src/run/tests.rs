@@ -2,10 +2,11 @@
 
 use super::*;
 use crate::model::tests::fuzz_button;
+use crate::observer::Restart;
 use crate::scene::{BlockShape, Friction, Motion, SliderShape, WearLaw};
 use crate::scene::{Effect, Switches};
 
-/// Records the cycles of reports, the checkpoints and the reasons of restarts.
+/// Records the cycles of reports, the checkpoints and what needed wider zones.
 #[derive(Default)]
 struct Recorder {
     cycles: Vec<u64>,
@@ -18,7 +19,8 @@ impl Observer for Recorder {
         match event {
             Event::Cycle(report) => self.cycles.push(report.cycle),
             Event::Checkpoint(checkpoint) => self.checkpoints.push(checkpoint.checkpoint()),
-            Event::Restart(reason) => self.restarts.push(reason.to_owned()),
+            Event::Restart(Restart::WiderZones(error)) => self.restarts.push(error.to_string()),
+            Event::Restart(restart) => panic!("{restart:?}"),
             Event::Snapshot(_) => {}
         }
         ControlFlow::Continue(())
@@ -135,10 +137,10 @@ fn a_first_load_that_is_too_wide_for_its_zones_gets_wider_ones() {
     scene.accuracy.cycle_jump = Some(1);
     let mut recorder = Recorder::default();
     let done = solve(&scene, &mut recorder).expect("it can be solved");
-    let [reason] = &recorder.restarts[..] else {
+    let [cause] = &recorder.restarts[..] else {
         panic!("{:?}", recorder.restarts);
     };
-    assert!(reason.contains("finely meshed zones of"), "{reason}");
+    assert!(cause.contains("finely meshed zones of"), "{cause}");
     assert_eq!(recorder.cycles, [0, 1]);
     let peak = done.initial.peak_pressure_mpa;
     assert!((peak / 836.41 - 1.0).abs() < 0.01, "{peak} MPa");

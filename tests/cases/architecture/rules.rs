@@ -242,6 +242,7 @@ pub(super) const RULES: [(&str, Rule); 21] = [
                 "server/src/rating",
                 "server/src/solve",
                 "server/src/spec",
+                "server/src/words",
             ],
         ),
     ),
