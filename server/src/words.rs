@@ -1,5 +1,6 @@
 //! Sentences that a user reads about effects, errors and warnings of the engine: the engine returns facts as enums with numbers.
 
+mod absences;
 pub(crate) mod decisions;
 pub(crate) mod restarts;
 pub(crate) mod warnings;

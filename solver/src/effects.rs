@@ -5,19 +5,22 @@
 //! tolerance and those of all skipped effects add up to at most half of it; otherwise the largest is simulated too.
 
 mod across_width;
+mod basis;
 mod bending;
 mod choice;
 mod decision;
 mod dimension;
 pub mod extent;
+mod facts;
 mod indicators;
 mod line;
 mod plasticity;
 mod point;
-mod reason;
 pub mod small_strain;
 
-pub use decision::{Decision, Indicator, Verdict};
+pub use basis::{Absence, AcrossWidth, Basis, Facts, Indicator};
+pub use decision::{Decision, Verdict};
+pub use plasticity::{Hardness, Yield};
 
 use crate::electrical::ElectricalState;
 use crate::scene::Effect;
@@ -71,7 +74,7 @@ fn counted<'a>(
     decisions: impl Iterator<Item = &'a Decision>,
 ) -> impl Iterator<Item = (Effect, f64)> {
     decisions.filter_map(|decision| {
-        let indicator = decision.indicator?;
+        let indicator = decision.indicator()?;
         let counts = decision.verdict == Verdict::Skipped && decision.effect.is_counted();
         counts.then_some((decision.effect, indicator.value()))
     })
@@ -138,7 +141,6 @@ impl EffectsPlan {
             for decision in &mut plan.decisions {
                 if decision.effect == crossing.effect && decision.verdict == Verdict::Skipped {
                     decision.verdict = Verdict::Simulated;
-                    decision.reason = reason::required_by_run(crossing.cycle, crossing.value);
                 }
             }
         }
@@ -161,7 +163,7 @@ impl EffectsPlan {
             .iter()
             .filter(|decision| decision.can_be_required())
             .filter_map(|decision| {
-                let indicator = decision.indicator?;
+                let indicator = decision.indicator()?;
                 let value = indicators.value(decision.effect, depth);
                 Some((decision.effect, value, indicator))
             });
@@ -190,7 +192,7 @@ impl EffectsPlan {
     ) -> Vec<Crossing> {
         let decision = self.decision(Effect::JouleHeating);
         let skipped = decision.filter(|decision| decision.can_be_required());
-        let Some(indicator) = skipped.and_then(|decision| decision.indicator) else {
+        let Some(indicator) = skipped.and_then(Decision::indicator) else {
             return Vec::new();
         };
         let rise_k = scene.joule_rise_k(electrical.constriction_mohm());
@@ -252,8 +254,9 @@ impl EffectsPlan {
     /// every node has to slip may stick.
     pub fn required_after_failure(&self, cycle: u64) -> Vec<Crossing> {
         let skipped = |effect: &Effect| {
-            self.decision(*effect)
-                .is_some_and(|decision| decision.can_be_required() && decision.indicator.is_some())
+            self.decision(*effect).is_some_and(|decision| {
+                decision.can_be_required() && decision.indicator().is_some()
+            })
         };
         let mut effects = [Effect::Friction, Effect::StickMemory].into_iter();
         let effect = effects.find(skipped);

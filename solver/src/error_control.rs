@@ -60,7 +60,7 @@ fn control(
 ) -> Result<Summary, SolveError> {
     let plan = effects::plan(scene);
     let mut done = with_companions(scene, &plan, from, observer)?;
-    let missed = plan.missed().cloned();
+    let missed = plan.missed().copied();
     done.warnings.extend(missed.map(Warning::Missed));
     Ok(done)
 }

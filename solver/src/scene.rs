@@ -11,6 +11,7 @@ mod dimension;
 mod effect;
 mod electrical;
 mod heat;
+mod missing_input;
 mod mission;
 mod motion;
 mod series;
@@ -26,6 +27,7 @@ pub use dimension::{Dimension, Ends, Extruded, Line, LineShape, Point, RingMotio
 pub use effect::Effect;
 pub use electrical::{Conduction, Electrical, MOST_METALS, Metal, Spots};
 pub(crate) use heat::ContactHeat;
+pub use missing_input::{MissingInput, MissingProperty};
 pub use mission::{Block, Mission, Order};
 pub use motion::Motion;
 pub use series::{HIGHEST_ORDER, Series, Term};

@@ -7,6 +7,7 @@
 use crate::recorder::{Recorder, solve};
 use crate::verify_plating::{THICKNESS, plated};
 use crate::verify_resume::resumes_to_the_same_bits;
+use solver::effects::{AcrossWidth, Basis, Facts};
 use solver::law::resistance::{Deformation, Film, Growth};
 use solver::record::{CycleReport, Outcome, ResistanceReport, Warning};
 use solver::scene::{Accuracy, Conduction, Effect, Electrical, Metal, Scene, Spots, WearLaw};
@@ -292,7 +293,14 @@ fn a_result_names_what_it_misses() {
     let mut scene = limited(filmed(AMPLITUDES[0], None), &[], &[]);
     scene.cycles = 1;
     let (summary, _) = solve(&scene).expect("the scene can be solved");
-    let missed = |warning: &&Warning| matches!(warning, Warning::Missed(decision) if decision.effect == Effect::AcrossWidth);
+    let missed = |warning: &&Warning| {
+        let Warning::Missed(decision) = warning else {
+            return false;
+        };
+        let is_sooner = |facts| matches!(facts, Facts::AcrossWidth(AcrossWidth::Even { life_over_ball, .. }) if life_over_ball > 1.0);
+        decision.effect == Effect::AcrossWidth
+            && matches!(decision.basis, Basis::Indicator(_, facts) if is_sooner(facts))
+    };
     assert_eq!(
         summary.warnings.iter().filter(missed).count(),
         1,

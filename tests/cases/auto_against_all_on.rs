@@ -135,7 +135,7 @@ fn skipped(plan: &EffectsPlan) -> impl Iterator<Item = Effect> {
     let skipped = plan
         .decisions
         .iter()
-        .filter(|decision| decision.verdict == Verdict::Skipped && decision.indicator.is_some())
+        .filter(|decision| decision.verdict == Verdict::Skipped && decision.indicator().is_some())
         .filter(|decision| decision.effect.is_available());
     skipped.map(|decision| decision.effect)
 }
@@ -147,7 +147,7 @@ fn all_on(plan: &EffectsPlan, scene: &Scene) -> Switches {
         let sticks = **effect == Effect::StickMemory && has_friction;
         let mut decisions = plan.decisions.iter();
         let decision = decisions.find(|decision| decision.effect == **effect);
-        effect.is_available() && (sticks || decision.is_some_and(|d| d.indicator.is_some()))
+        effect.is_available() && (sticks || decision.is_some_and(|d| d.indicator().is_some()))
     });
     on.fold(Switches::default(), |switches, effect| {
         switches.with(*effect, true)
@@ -161,7 +161,7 @@ fn decisive(plan: &EffectsPlan) -> impl Iterator<Item = Effect> {
             && decision.effect != Effect::Elasticity
             && !decision.effect.is_derived()
             && decision
-                .indicator
+                .indicator()
                 .is_some_and(|indicator| indicator.value() > TOLERANCE)
     });
     decisive.map(|decision| decision.effect)

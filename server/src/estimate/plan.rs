@@ -12,6 +12,7 @@ use crate::estimate::expected_time::ExpectedTime;
 use crate::estimate::{Estimate, life, notes};
 use crate::export::history;
 use crate::spec::Resolved;
+use crate::words::decisions;
 
 impl Estimate {
     /// The plan of the resolved specification, with processor seconds if the machine is calibrated.
@@ -49,16 +50,10 @@ fn planned_effects(scene: &Scene) -> Vec<PlannedEffect> {
 }
 
 fn planned(decision: effects::Decision) -> PlannedEffect {
-    let effects::Decision {
-        effect,
-        verdict,
-        indicator,
-        reason,
-        ..
-    } = decision;
+    let (effect, indicator) = (decision.effect, decision.indicator());
     PlannedEffect {
         effect: effect.name().to_owned(),
-        decision: history::decision(verdict),
+        decision: history::decision(decision.verdict),
         indicator: effect.indicator().to_owned(),
         // JSON has no infinity.
         value: indicator
@@ -70,7 +65,7 @@ fn planned(decision: effects::Decision) -> PlannedEffect {
             .iter()
             .map(|&output| output.to_owned())
             .collect(),
-        reason,
+        reason: decisions::reason(&decision),
     }
 }
 

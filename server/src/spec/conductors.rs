@@ -4,17 +4,11 @@ use api::spec::{CriterionKind, EnumValue, Material, Model, Spec, Switch};
 use solver::law::elastic::contact_modulus;
 use solver::law::plating::bottoms;
 use solver::law::softening::REFERENCE_C;
-use solver::scene::{Conduction, Elastic, Electrical, Layer, Metal, Motion};
+use solver::scene::{Conduction, Elastic, Electrical, Layer, Metal, MissingProperty, Motion};
 use solver::sides::Sides;
 
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::{environment, films, materials, plating, spots};
-
-const NO_FORCE: &str =
-    "the force on the contact is not known: give a load of the kind `force` with its `width_mm`";
-const NO_RESISTIVITY: &str =
-    "a resistivity is not known: give `resistivity_ohm_m` of each material";
-const NO_HARDNESS: &str = "a hardness is not known: give `hardness_mpa` of each material";
 
 /// Conductors of the contact, and the data missing for their resistance.
 pub(super) struct Conductors {
@@ -57,7 +51,7 @@ pub(super) fn resolve(
     });
     if force.is_none() {
         lacks.push("a load of the kind `force` with its `width_mm`".to_owned());
-        unknown = Some(NO_FORCE);
+        unknown = Some(MissingProperty::Force);
     }
     let metals = Sides::from_fn(|side| {
         let of_side = (*platings.of(side), bodies.layers.of(side));
@@ -76,11 +70,11 @@ pub(super) fn resolve(
             let resistivity = resistivity(material);
             if resistivity.is_none() {
                 lacks.push(format!("`{name}.resistivity_ohm_m`"));
-                unknown.get_or_insert(NO_RESISTIVITY);
+                unknown.get_or_insert(MissingProperty::Resistivity);
             }
             if hardness.is_none() {
                 lacks.push(format!("`{name}.hardness_mpa`"));
-                unknown.get_or_insert(NO_HARDNESS);
+                unknown.get_or_insert(MissingProperty::Hardness);
             }
             Metal {
                 bottom_mm,
@@ -112,7 +106,7 @@ pub(super) fn resolve(
                 spots::resolve(filled.interface.spots.as_ref(), modulus, diagnostics);
             }
             Conduction::Unknown {
-                missing: missing.unwrap_or(NO_FORCE),
+                missing: missing.unwrap_or(MissingProperty::Force),
                 is_requested,
             }
         }

@@ -121,7 +121,10 @@ fn check_forced(given: &Given, plan: EffectsPlan, diagnostics: &mut Diagnostics)
             };
             diagnostics.fault(&pointer, detail);
         } else if forced && is_out {
-            diagnostics.fault(&pointer, format!("cannot be on: {}", decision.reason));
+            diagnostics.fault(
+                &pointer,
+                format!("cannot be on: {}", decisions::reason(&decision)),
+            );
         }
     }
 }
@@ -133,7 +136,7 @@ pub(crate) fn warnings(scene: &Scene) -> Vec<Fault> {
         if decision.verdict == Verdict::InputMissing {
             return Some(Fault {
                 pointer: format!("/effects/{}", decision.effect.name()),
-                detail: decision.reason,
+                detail: decisions::reason(&decision),
             });
         }
         let heats = matches!(
@@ -141,12 +144,12 @@ pub(crate) fn warnings(scene: &Scene) -> Vec<Fault> {
             Effect::FrictionalHeating | Effect::JouleHeating
         );
         let heat = decision
-            .indicator
+            .indicator()
             .filter(|_| heats && decision.verdict.is_on());
         if heat.is_some_and(|indicator| indicator.value() >= MOLTEN) {
             return Some(Fault {
                 pointer: "/environment".to_owned(),
-                detail: format!("the contact melts: {}", decision.reason),
+                detail: format!("the contact melts: {}", decisions::reason(&decision)),
             });
         }
         decision.is_missed().then(|| Fault {

@@ -1,16 +1,14 @@
 //! The decision about each effect: nothing to simulate, the user's switch, what the run has required, its indicator.
 
-use super::decision::{Decision, Indicator, Verdict};
+use super::basis::{Absence, Basis, Indicator};
+use super::decision::{Decision, Verdict};
 use super::dimension::can_simulate;
+use super::facts::facts;
 use super::indicators::Indicators;
-use super::plasticity::Yield;
-use super::reason::{Decided, DecisionBasis, reason};
 use super::small_strain;
-use crate::scene::Effect;
-
 use crate::law::surface::SurfaceWear;
-use crate::scene::{Body, Conduction, Scene, Softening, SurfaceEffects, WearLaw};
-use crate::sides::Sides;
+use crate::scene::{Body, Conduction, Effect, MissingInput, Scene, SurfaceEffects, WearLaw};
+use crate::sides::{Side, Sides};
 
 /// Largest indicator of a skipped effect over the tolerance. Arbitrary: five effects at this limit exceed their budget
 /// twice.
@@ -35,40 +33,35 @@ pub(super) fn decide(
         let nothing = nothing_to_simulate(scene, effect, is_on);
         let missing =
             missing_input(scene, effect).or_else(|| missing_heat(scene, indicators, effect));
-        let basis = match (nothing, missing) {
-            (Some(nothing), _) => DecisionBasis::Nothing(nothing),
-            (None, Some(missing)) => DecisionBasis::Missing(missing),
-            (None, None) => DecisionBasis::Indicator(indicator(scene, indicators, effect)),
-        };
         let is_required = required.contains(&effect);
-        let verdict = verdict(scene, effect, basis, is_required);
+        let basis = match (nothing, missing) {
+            (Some(nothing), _) => Basis::Nothing(nothing),
+            (None, Some(missing)) => Basis::Missing(missing),
+            (None, None) => {
+                let indicator = indicator(scene, indicators, effect);
+                match facts(scene, indicators, effect, indicator, is_required) {
+                    Ok(facts) => Basis::Indicator(indicator, facts),
+                    Err(nothing) => Basis::Nothing(nothing),
+                }
+            }
+        };
         decisions.push(Decision {
             effect,
-            verdict,
-            indicator: basis.indicator(),
+            verdict: verdict(scene, effect, basis, is_required),
             is_available: can_simulate(scene, effect),
-            reason: reason(
-                scene,
-                indicators,
-                effect,
-                Decided {
-                    verdict,
-                    basis,
-                    is_required,
-                },
-            ),
+            basis,
         });
     }
     decisions
 }
 
-fn verdict(scene: &Scene, effect: Effect, basis: DecisionBasis, is_required: bool) -> Verdict {
+fn verdict(scene: &Scene, effect: Effect, basis: Basis, is_required: bool) -> Verdict {
     let switch = scene.effects.of(effect);
     let indicator = match basis {
-        DecisionBasis::Nothing(_) => return Verdict::Skipped,
-        DecisionBasis::Missing(_) if switch == Some(false) => return Verdict::ForcedOff,
-        DecisionBasis::Missing(_) => return Verdict::InputMissing,
-        DecisionBasis::Indicator(indicator) => indicator,
+        Basis::Nothing(_) => return Verdict::Skipped,
+        Basis::Missing(_) if switch == Some(false) => return Verdict::ForcedOff,
+        Basis::Missing(_) => return Verdict::InputMissing,
+        Basis::Indicator(indicator, _) => indicator,
     };
     // Sticking needs shear.
     let needed = effect == Effect::Friction && scene.effects.of(Effect::StickMemory) == Some(true);
@@ -136,36 +129,34 @@ fn heat_counts(scene: &Scene) -> bool {
         || laws.into_iter().flatten().any(|law| law.heated(1.0) != law)
 }
 
-/// Names the input that a specification lacks for an effect that matters.
-fn missing_input(scene: &Scene, effect: Effect) -> Option<&'static str> {
-    let unknown = [&scene.slider.softening, &scene.receptacle.softening].map(Softening::is_unknown);
-    match (effect, unknown) {
-        (Effect::ThermalSoftening, [true, true]) => Some(
-            "the melting temperatures of both parts' materials are not all known: give `melting_temperature_c`",
-        ),
-        (Effect::ThermalSoftening, [true, false]) => Some(
-            "the melting temperatures of the slider's materials are not all known: give `melting_temperature_c`",
-        ),
-        (Effect::ThermalSoftening, [false, true]) => Some(
-            "the melting temperatures of the receptacle's materials are not all known: give `melting_temperature_c`",
-        ),
-        (Effect::Resistance, _) => match scene.conduction {
+/// Returns the input that a scene lacks for an effect that matters.
+fn missing_input(scene: &Scene, effect: Effect) -> Option<MissingInput> {
+    match effect {
+        Effect::ThermalSoftening => {
+            let unknown = Sides {
+                slider: scene.slider.softening.is_unknown(),
+                receptacle: scene.receptacle.softening.is_unknown(),
+            };
+            let is_missing = unknown.slider || unknown.receptacle;
+            is_missing.then_some(MissingInput::MeltingTemperature(unknown))
+        }
+        Effect::Resistance => match scene.conduction {
             Conduction::Unknown {
                 missing,
                 is_requested: true,
-            } => Some(missing),
+            } => Some(MissingInput::Conductor(missing)),
             _ => None,
         },
         _ => None,
     }
 }
 
-/// Names the input that a scene lacks for heat that could matter, or is to be simulated.
+/// Returns the input that a scene lacks for heat that could matter, or is to be simulated.
 fn missing_heat(
     scene: &Scene,
     indicators: &Indicators<'_>,
     effect: Effect,
-) -> Option<&'static str> {
+) -> Option<MissingInput> {
     let lacks = match effect {
         Effect::FrictionalHeating => scene.heat_lacks(true)?,
         Effect::JouleHeating => scene.heat_lacks(false)?,
@@ -181,109 +172,77 @@ fn nothing_to_simulate(
     scene: &Scene,
     effect: Effect,
     is_on: impl Fn(Effect) -> bool,
-) -> Option<&'static str> {
+) -> Option<Absence> {
     let wears = || is_on(Effect::ReceptacleWear) || is_on(Effect::SliderWear);
     let slides = scene.motion.distance_per_cycle_mm() > 0.0;
-    let wear = |has_law: bool, without: &'static str| match (has_law, slides) {
-        (false, _) => Some(without),
-        (true, false) => Some("nothing slides: the amplitude is 0"),
+    let wear = |has_law: bool, side: Side| match (has_law, slides) {
+        (false, _) => Some(Absence::NoWear(side)),
+        (true, false) => Some(Absence::NothingSlides),
         (true, true) => None,
     };
     match effect {
         Effect::Friction | Effect::StickMemory | Effect::FrictionalHeating
             if !scene.has_friction() =>
         {
-            Some("there is no friction in the scene")
+            Some(Absence::Frictionless)
         }
         Effect::StickMemory if !is_on(Effect::Friction) && !is_point(scene) => {
-            Some("friction acts on neither body, so that nothing sticks")
+            Some(Absence::FrictionOff)
         }
-        Effect::ReceptacleWear => wear(
-            wears_by_law(scene, &scene.receptacle),
-            "the receptacle has no wear law, or one that wears nothing here",
-        ),
-        Effect::SliderWear => wear(
-            wears_by_law(scene, &scene.slider),
-            "the slider has no wear law, or one that wears nothing here",
-        ),
-        Effect::Plating if !is_plated(scene) => Some("neither body is plated"),
-        Effect::Plating if !wears() => Some("nothing wears, so no layer is worn through"),
-        Effect::ThermalSoftening if is_at_reference(scene) => {
-            Some("the contact is at 20 °C, at which hardnesses are measured")
+        Effect::ReceptacleWear => wear(wears_by_law(scene, &scene.receptacle), Side::Receptacle),
+        Effect::SliderWear => wear(wears_by_law(scene, &scene.slider), Side::Slider),
+        Effect::Plating if !is_plated(scene) => Some(Absence::NotPlated),
+        Effect::ThermalSoftening if is_at_reference(scene) => Some(Absence::ReferenceTemperature),
+        Effect::Plating
+        | Effect::ThermalSoftening
+        | Effect::FrictionalHeating
+        | Effect::JouleHeating
+            if !wears() =>
+        {
+            Some(Absence::NothingWears)
         }
-        Effect::ThermalSoftening | Effect::FrictionalHeating | Effect::JouleHeating if !wears() => {
-            Some("nothing wears, so no hardness counts")
+        Effect::FrictionalHeating | Effect::JouleHeating if !heat_counts(scene) => {
+            Some(Absence::NoRateByTemperature)
         }
-        Effect::FrictionalHeating | Effect::JouleHeating if !heat_counts(scene) => Some(
-            "no wear law here depends on the temperature, or a hardness on a known `melting_temperature_c`",
-        ),
         Effect::JouleHeating if scene.effects.of(Effect::Resistance) == Some(false) => {
-            Some("the resistance of the contact is switched off, from which it follows")
+            Some(Absence::ResistanceOff)
         }
         Effect::JouleHeating => match &scene.conduction {
             Conduction::Known(electrical) if electrical.current_a.is_none() => {
-                Some("no current is given: `environment.current_a`")
+                Some(Absence::NoCurrent)
             }
             Conduction::Known(_) => None,
-            Conduction::Unknown { missing, .. } => Some(missing),
+            Conduction::Unknown { missing, .. } => Some(Absence::Conductor(*missing)),
         },
-        Effect::Relocation if is_point(scene) => Some("half-spaces keep their stiffness"),
-        Effect::Relocation if !wears() => Some("nothing wears, so nothing moves the mesh"),
-        Effect::SpringFading if scene.spring_n_per_mm2 <= 0.0 => Some("the load is a dead load"),
-        Effect::Resistance if scene.dimension.has_sections() => {
-            Some("the resistance of sections along a line is not computed")
+        Effect::Relocation if is_point(scene) => Some(Absence::HalfSpaces),
+        Effect::SpringFading if scene.spring_n_per_mm2 <= 0.0 => Some(Absence::DeadLoad),
+        Effect::AcrossWidth if scene.dimension.is_finite() => None,
+        Effect::Relocation | Effect::SpringFading | Effect::AcrossWidth if !wears() => {
+            Some(Absence::NothingWears)
         }
+        Effect::Resistance if scene.dimension.has_sections() => Some(Absence::Sections),
         Effect::Resistance => match scene.conduction {
             Conduction::Unknown {
                 missing,
                 is_requested: false,
-            } => Some(missing),
+            } => Some(Absence::Conductor(missing)),
             _ => None,
         },
         Effect::SkinEffect => match &scene.conduction {
-            Conduction::Unknown { missing, .. } => Some(missing),
+            Conduction::Unknown { missing, .. } => Some(Absence::Conductor(*missing)),
             Conduction::Known(electrical) if electrical.frequency_hz.is_none() => {
-                Some("the current is direct: `environment.frequency_hz` is not given")
+                Some(Absence::DirectCurrent)
             }
             Conduction::Known(_) => None,
         },
-        Effect::SpringFading if !wears() => Some("nothing wears, so the spring keeps its load"),
-        Effect::Plasticity if Yield::of(scene).is_none() => Some(
-            "never simulated, and not estimated: give `hardness_mpa` of each material, of layers and bases",
-        ),
-        Effect::AcrossWidth if scene.dimension.is_finite() => None,
-        Effect::AcrossWidth if !wears() => {
-            Some("never simulated; nothing wears, so that no life depends on it")
-        }
-        Effect::AcrossWidth if scene.conduction.known().is_none() => Some(
-            "never simulated: a dimple or a crown across the width carries the load on less of it and may wear through many times sooner",
-        ),
-        _ => never_simulated(scene, effect),
-    }
-}
-
-/// Why an effect is named without a number.
-fn never_simulated(scene: &Scene, effect: Effect) -> Option<&'static str> {
-    match effect {
-        Effect::Oxidation if oxidises(scene) => {
-            Some("it is the wear law of a surface, and nothing beside it")
-        }
-        Effect::Oxidation => Some(
-            "never simulated beside another wear law: name an oxidational one where films of oxide wear",
-        ),
-        Effect::Relaxation => Some(
-            "never simulated: lower the load to what the spring keeps over its life, a third less for phosphor bronze after 1 000 h at 150 °C",
-        ),
-        Effect::Inertia => Some(
-            "never simulated in a run; the slip of a `vibration` is derived with the mass before it",
-        ),
-        Effect::ThirdBody => {
-            Some("never simulated: the coefficient of wear contains the debris of its measurement")
-        }
-        Effect::MetalTransfer => Some(
-            "never simulated: metal that transfers to the other surface, as prows of gold do, is counted as worn",
-        ),
-        Effect::Fatigue => Some("never simulated"),
+        Effect::AcrossWidth if scene.conduction.known().is_none() => Some(Absence::UnknownWidth),
+        Effect::Oxidation if oxidises(scene) => Some(Absence::WearLaw),
+        Effect::Oxidation
+        | Effect::Relaxation
+        | Effect::Inertia
+        | Effect::ThirdBody
+        | Effect::MetalTransfer
+        | Effect::Fatigue => Some(Absence::NeverSimulated),
         _ => None,
     }
 }

@@ -1,28 +1,32 @@
 //! The decision about an effect.
 
+use super::basis::{Basis, Indicator};
 use crate::scene::Effect;
 use serde::{Deserialize, Serialize};
 
 /// Decision about one effect.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Decision {
     /// The effect.
     pub effect: Effect,
     /// The decision.
     pub verdict: Verdict,
-    /// Indicator; `None` where there is nothing to decide.
-    pub indicator: Option<Indicator>,
     /// True if it can be simulated in the scene.
     pub is_available: bool,
-    /// Reason, with the numbers that decided.
-    pub reason: String,
+    /// Basis of the decision.
+    pub basis: Basis,
 }
 
 impl Decision {
+    /// The indicator; `None` where there is nothing to decide.
+    pub fn indicator(&self) -> Option<Indicator> {
+        self.basis.indicator()
+    }
+
     /// Returns `true` if the effect is beyond its limit and not simulated.
     pub fn is_missed(&self) -> bool {
         let is_beyond = |indicator: Indicator| indicator.value() > indicator.threshold;
-        !self.verdict.is_on() && self.indicator.is_some_and(is_beyond)
+        !self.verdict.is_on() && self.indicator().is_some_and(is_beyond)
     }
 
     /// Returns `true` if a run may still require the effect: it is skipped, not switched off, and can be simulated in the scene.
@@ -50,23 +54,5 @@ impl Verdict {
     /// Returns `true` if the effect is part of the model.
     pub fn is_on(self) -> bool {
         matches!(self, Self::Simulated | Self::ForcedOn)
-    }
-}
-
-/// Relative change of the outputs by an effect.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Indicator {
-    /// For the unworn contact.
-    pub unworn: f64,
-    /// At the estimated end.
-    pub worn: f64,
-    /// Largest value of an effect that is skipped.
-    pub threshold: f64,
-}
-
-impl Indicator {
-    /// The larger of both values.
-    pub fn value(self) -> f64 {
-        self.unworn.max(self.worn)
     }
 }

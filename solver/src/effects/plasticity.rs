@@ -12,6 +12,8 @@
 //! Layers carry a contact of the half-width a that is small against their thickness, and bases one that is large: the hardness of what lies
 //! above a depth t counts with the share ln(10 t/a)/ln 10, from 0 at t = a/10 to 1 at t = a. Assumed.
 
+use serde::{Deserialize, Serialize};
+
 use crate::closed_form::unworn_contact;
 use crate::closed_form::{PointScene, SlipRegime};
 use crate::law::plating::{Layer, bottoms};
@@ -27,26 +29,27 @@ const ONSET_OF_LINE: f64 = 1.79;
 const THIN: f64 = 0.1;
 
 /// The unworn peak pressure beside the hardnesses of the side that yields first.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Yield {
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Yield {
     /// Hertz' peak pressure, MPa.
-    pub(super) peak_mpa: f64,
-    /// The side, and its hardnesses.
-    pub(super) side: Side,
-    pub(super) hardness: Hardness,
+    pub peak_mpa: f64,
+    /// The side.
+    pub side: Side,
+    /// Hardnesses of the side.
+    pub hardness: Hardness,
     /// Permanent depth, mm; 0 up to the hardness.
-    pub(super) depth_mm: f64,
+    pub depth_mm: f64,
 }
 
 /// Hardnesses of a side, MPa.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Hardness {
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Hardness {
     /// Of its outermost layer, or of the bare base.
-    pub(super) outermost: f64,
+    pub outermost: f64,
     /// Of its base.
-    pub(super) base: f64,
+    pub base: f64,
     /// Of what carries the contact.
-    pub(super) carrying: f64,
+    pub carrying: f64,
 }
 
 /// Sizes of the unworn contact.
@@ -86,7 +89,7 @@ impl Yield {
     }
 
     /// Peak pressure over the hardness that carries the contact, -.
-    pub(super) fn ratio(&self) -> f64 {
+    pub fn ratio(&self) -> f64 {
         self.peak_mpa / self.hardness.carrying
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::law::plating::MOST_LAYERS;
 use crate::law::resistance::{Deformation, Film};
+use crate::scene::MissingProperty;
 use crate::sides::Sides;
 
 /// Most metals of a side: its layers and its base.
@@ -14,8 +15,8 @@ pub enum Conduction {
     Known(Box<Electrical>),
     /// Something is missing.
     Unknown {
-        /// The missing input, in words.
-        missing: &'static str,
+        /// The missing property.
+        missing: MissingProperty,
         /// True if the resistance is requested.
         is_requested: bool,
     },
@@ -24,7 +25,7 @@ pub enum Conduction {
 impl Default for Conduction {
     fn default() -> Self {
         Self::Unknown {
-            missing: "nothing is known about the contact as a conductor",
+            missing: MissingProperty::All,
             is_requested: false,
         }
     }

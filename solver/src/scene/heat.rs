@@ -7,7 +7,7 @@ use crate::law::softening::Margins;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::{LocalState, WearLaw};
 use crate::number::real_cycles;
-use crate::scene::{Conductor, Motion, Scene, TimedMotion};
+use crate::scene::{Conductor, MissingInput, Motion, Scene, TimedMotion};
 use crate::sides::{Side, Sides};
 
 /// Part 1/e of a time T at which a logarithm of the time has its mean from 0 to T.
@@ -96,16 +96,16 @@ impl Scene {
         known.sliding_heat(half_width_mm, MEAN_OF_LOGARITHM * real_cycles(self.cycles))
     }
 
-    /// Names the input that the temperature of the contact, or its effect on the wear, lacks.
-    pub(crate) fn heat_lacks(&self, by_friction: bool) -> Option<&'static str> {
-        let (slider, receptacle) = (&self.slider, &self.receptacle);
-        if by_friction && (slider.thermal.is_none() || receptacle.thermal.is_none()) {
-            return Some(
-                "the conductivities of the parts' materials are not all known: give `thermal_conductivity_w_mk`",
-            );
+    /// Returns the input that the temperature of the contact, or its effect on the wear, lacks.
+    pub(crate) fn heat_lacks(&self, by_friction: bool) -> Option<MissingInput> {
+        if by_friction && (self.slider.thermal.is_none() || self.receptacle.thermal.is_none()) {
+            return Some(MissingInput::Conductivity);
         }
-        (slider.softening.lacks_melting || receptacle.softening.lacks_melting)
-            .then_some("the melting temperatures of the parts' materials are not all known: give `melting_temperature_c`")
+        let lacks = Sides {
+            slider: self.slider.softening.lacks_melting,
+            receptacle: self.receptacle.softening.lacks_melting,
+        };
+        (lacks.slider || lacks.receptacle).then_some(MissingInput::MeltingTemperature(lacks))
     }
 
     /// Temperature rise, K, by the current through a resistance of the contact in mOhm.

@@ -7,6 +7,7 @@ use solver::scene::{Electrical, Scene};
 
 use crate::spec::Resolved;
 use crate::spec::tests::{accepted, faults};
+use crate::words::decisions;
 
 /// An SD card with hard gold over nickel on the pad and a tip that does not wear.
 fn card(interface: &str, rest: &str) -> String {
@@ -37,7 +38,7 @@ fn verdict(scene: &Scene) -> (Verdict, String) {
     let mut decisions = plan(scene).decisions.into_iter();
     let decision = decisions.find(|decision| decision.effect == Effect::Resistance);
     let decision = decision.expect("it is decided");
-    (decision.verdict, decision.reason)
+    (decision.verdict, decisions::reason(&decision))
 }
 
 const FILM: &str = r#","films":[{"specific_resistance_ohm_mm2":1e-5}]"#;
@@ -215,19 +216,12 @@ fn a_current_of_high_frequency_is_warned_of() {
         (decision.expect("it is decided"), is_warned)
     };
     let (direct, is_warned) = skin("");
-    assert!(
-        direct.indicator.is_none() && !is_warned,
-        "{}",
-        direct.reason
-    );
+    assert!(direct.indicator().is_none() && !is_warned, "{direct:?}");
     let (slow, is_warned) = skin(r#","environment":{"frequency_hz":50}"#);
-    assert!(slow.indicator.is_some_and(|found| found.value() < 1e-6) && !is_warned);
+    assert!(slow.indicator().is_some_and(|found| found.value() < 1e-6) && !is_warned);
     let (fast, is_warned) = skin(r#","environment":{"frequency_hz":1e9}"#);
-    assert!(
-        fast.reason.contains("direct current") && is_warned,
-        "{}",
-        fast.reason
-    );
-    assert!(fast.indicator.is_some_and(|found| found.value() > 1.0));
+    let reason = decisions::reason(&fast);
+    assert!(reason.contains("direct current") && is_warned, "{reason}");
+    assert!(fast.indicator().is_some_and(|found| found.value() > 1.0));
     assert_eq!(fast.verdict, Verdict::Skipped);
 }

@@ -4,6 +4,7 @@ use solver::scene::{Scene, SpeedLaw, Temperature, WearLaw};
 
 use crate::spec::Resolved;
 use crate::spec::tests::{accepted, faults};
+use crate::words::decisions;
 
 /// An SD card with tin on the pad at a temperature.
 fn tinned(temperature: &str, rest: &str) -> Resolved {
@@ -17,7 +18,7 @@ fn verdict(scene: &Scene) -> (Verdict, String) {
     let mut decisions = plan(scene).decisions.into_iter();
     let softening = decisions.find(|d| d.effect == Effect::ThermalSoftening);
     let softening = softening.expect("it is decided");
-    (softening.verdict, softening.reason)
+    (softening.verdict, decisions::reason(&softening))
 }
 
 #[test]
@@ -67,8 +68,8 @@ fn decided(scene: &Scene, effect: Effect) -> (Verdict, f64, String) {
     let mut decisions = plan(scene).decisions.into_iter();
     let found = decisions.find(|decision| decision.effect == effect);
     let found = found.expect("it is decided");
-    let value = found.indicator.map_or(0.0, Indicator::value);
-    (found.verdict, value, found.reason)
+    let value = found.indicator().map_or(0.0, Indicator::value);
+    (found.verdict, value, decisions::reason(&found))
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Warnings of what is left out although it is beyond its limit.
 
 use super::accepted;
+use crate::words::decisions;
 
 /// The warning of an effect, if there is one.
 fn warned(text: &str, effect: &str) -> Option<String> {
@@ -15,7 +16,7 @@ fn reason(text: &str, effect: &str) -> String {
     let plan = solver::effects::plan(&accepted(text).scene);
     let mut decisions = plan.decisions.into_iter();
     let found = decisions.find(|decision| decision.effect.name() == effect);
-    found.expect("every effect is decided about").reason
+    decisions::reason(&found.expect("every effect is decided about"))
 }
 
 /// Loads that have no force: by pressure and by line force.
