@@ -2,5 +2,6 @@
 
 mod absences;
 pub(crate) mod decisions;
+pub(crate) mod extent;
 pub(crate) mod restarts;
 pub(crate) mod warnings;

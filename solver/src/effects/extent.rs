@@ -29,30 +29,58 @@ pub struct Extent {
     pub tilt_mrad: f64,
 }
 
-/// Dimensions to choose from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// The dimension to choose, with its reason.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Choice {
-    /// One section.
-    PlaneStrain,
-    /// Sections along a line.
-    Line,
-    /// A point contact of half-spaces.
-    Point,
+    /// One section: there is neither a crown nor a tilt.
+    Straight,
+    /// One section: crown and tilt recede by less than the limit.
+    Recedes {
+        /// Height that recedes over the width, mm.
+        by_mm: f64,
+        /// The limit, mm.
+        limit_mm: f64,
+    },
+    /// Sections along a line: the tilt recedes by more than the limit.
+    Tilt {
+        /// Height that recedes over the width, mm.
+        by_mm: f64,
+        /// The limit, mm.
+        limit_mm: f64,
+    },
+    /// Sections along a line: a crown is tilted.
+    TiltedCrown,
+    /// Sections along a line: the contact of a crown grows to the ends of the width.
+    CrownToEnds {
+        /// Expected half-length of the contact across the sliding direction, mm.
+        half_length_mm: f64,
+        /// Half of the width, mm.
+        half_width_mm: f64,
+    },
+    /// A point contact of half-spaces: the contact of a crown stays within the width.
+    Crown {
+        /// Length of the unworn contact across the sliding direction over that along it.
+        aspect: f64,
+        /// Expected half-length of the contact across the sliding direction, mm.
+        half_length_mm: f64,
+        /// Half of the width, mm.
+        half_width_mm: f64,
+    },
 }
 
-/// The dimension for a scene under its mean line load, which is also given as a point contact if it has a crown, with the reason.
-pub fn choose(plane: &Scene, as_point: Option<&Scene>, extent: Extent) -> (Choice, String) {
+/// The dimension for a scene under its mean line load, which is also given as a point contact if it has a crown.
+pub fn choose(plane: &Scene, as_point: Option<&Scene>, extent: Extent) -> Choice {
     let Extent {
         width_mm,
         crown_radius_mm,
         tilt_mrad,
     } = extent;
-    let half = 0.5 * width_mm;
-    let crown = crown_radius_mm.map_or(0.0, |radius| half * half / (2.0 * radius));
-    let recedes = crown + 1e-3 * tilt_mrad.abs() * width_mm;
-    if recedes <= 0.0 {
-        let reason = "neither a crown nor a tilt: all sections across the width are alike";
-        return (Choice::PlaneStrain, reason.to_owned());
+    let half_width_mm = 0.5 * width_mm;
+    let crown =
+        crown_radius_mm.map_or(0.0, |radius| half_width_mm * half_width_mm / (2.0 * radius));
+    let by_mm = crown + 1e-3 * tilt_mrad.abs() * width_mm;
+    if by_mm <= 0.0 {
+        return Choice::Straight;
     }
     let depth = |scene: &Scene| {
         let hertz = hertz_half_width(scene);
@@ -60,38 +88,27 @@ pub fn choose(plane: &Scene, as_point: Option<&Scene>, extent: Extent) -> (Choic
         let worn = worn_depth_after(scene, hertz, &scene.surface_wear(), cycles);
         worn.slider.max(worn.receptacle)
     };
-    let limit = SHARE * plane.accuracy.tolerance * depth(plane);
-    if recedes <= limit {
-        let reason = format!(
-            "crown and tilt recede by {recedes:.2e} mm over the width, below the limit of {limit:.2e} mm for the expected wear: all sections \
-             wear alike"
-        );
-        return (Choice::PlaneStrain, reason);
+    let limit_mm = SHARE * plane.accuracy.tolerance * depth(plane);
+    if by_mm <= limit_mm {
+        return Choice::Recedes { by_mm, limit_mm };
     }
     let round = as_point.and_then(|scene| Some((scene, half_lengths_mm(scene)?)));
     let (Some((scene, (along, across))), Some(radius)) = (round, crown_radius_mm) else {
-        let reason = format!(
-            "the tilt recedes by {recedes:.2e} mm over the width, above the limit of {limit:.2e} mm for the expected wear: sections wear \
-             unlike"
-        );
-        return (Choice::Line, reason);
+        return Choice::Tilt { by_mm, limit_mm };
     };
-    let aspect = across / along;
-    let worn = (across * across + 2.0 * radius * depth(scene)).sqrt();
+    let half_length_mm = (across * across + 2.0 * radius * depth(scene)).sqrt();
     if tilt_mrad != 0.0 {
-        let reason = "sections across a tilted width touch one after the other";
-        (Choice::Line, reason.to_owned())
-    } else if worn > half {
-        let reason = format!(
-            "the contact is expected to grow to {worn:.2e} mm to either side, beyond the ends of the width at {half:.2e} mm, which half-spaces \
-             do not have"
-        );
-        (Choice::Line, reason)
+        Choice::TiltedCrown
+    } else if half_length_mm > half_width_mm {
+        Choice::CrownToEnds {
+            half_length_mm,
+            half_width_mm,
+        }
     } else {
-        let reason = format!(
-            "the contact, {aspect:.1} times as long across the sliding direction as along it before any wear, is expected to stay within the width \
-             ({worn:.2e} of {half:.2e} mm to either side): it is one of half-spaces"
-        );
-        (Choice::Point, reason)
+        Choice::Crown {
+            aspect: across / along,
+            half_length_mm,
+            half_width_mm,
+        }
     }
 }

@@ -2,12 +2,13 @@
 //! width, else a line of sections (`solver::effects::extent`).
 
 use api::spec::{Dimension, Spec};
-use solver::effects::extent::{self, Extent};
+use solver::effects::extent::{self, Choice, Extent};
 use solver::scene::Scene;
 
 use super::line::Line;
 use super::{point, section_only};
 use crate::spec::diagnostics::Diagnostics;
+use crate::words;
 
 /// A scene of the dimension that was chosen.
 pub(super) struct Chosen {
@@ -44,14 +45,18 @@ pub(super) fn choose(
         let mut of_candidate = Diagnostics::default();
         point::with_dimension(whole.clone(), (Some(crown), force_n), &mut of_candidate)
     });
-    let (dimension, reason) = match extent::choose(&plane, as_point.as_ref(), line.extent()) {
-        (extent::Choice::PlaneStrain, reason) => (Dimension::PlaneStrain, reason),
-        (extent::Choice::Line, reason) => (Dimension::Line, reason),
-        (extent::Choice::Point, reason) if section.output.fields => {
+    let choice = extent::choose(&plane, as_point.as_ref(), line.extent());
+    let reason = words::extent::reason(choice);
+    let (dimension, reason) = match choice {
+        Choice::Straight | Choice::Recedes { .. } => (Dimension::PlaneStrain, reason),
+        Choice::Tilt { .. } | Choice::TiltedCrown | Choice::CrownToEnds { .. } => {
+            (Dimension::Line, reason)
+        }
+        Choice::Crown { .. } if section.output.fields => {
             let detail = "a line of sections is simulated for the fields inside the bodies, which a point does not have";
             (Dimension::Line, format!("{reason}; {detail}"))
         }
-        (extent::Choice::Point, reason) => (Dimension::Point, reason),
+        Choice::Crown { .. } => (Dimension::Point, reason),
     };
     let scene = match (dimension, crown_radius_mm) {
         (Dimension::Line, _) => line.with_dimension((section, is_force), spec, diagnostics),
