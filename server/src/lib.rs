@@ -29,5 +29,5 @@ pub mod spec;
 pub mod store;
 pub mod supervision;
 mod text;
-mod words;
+pub mod words;
 pub mod worker;

@@ -9,6 +9,7 @@ mod scenes;
 
 use comfy_table::{Table, presets};
 use serde_json::Value;
+use server::words::effects::name as effect_name;
 use solver::effects::{self, EffectsPlan, Verdict};
 use solver::record::Summary;
 use solver::scene::Scene;
@@ -59,7 +60,7 @@ fn hold(scenes: &[(String, Value)]) {
         let name = &scene.name;
         assert!(difference <= TOLERANCE, "{name}: {output} {difference}");
         let [entries, unknowns] = scene.work;
-        let skips = |effect: Effect| scene.skipped.contains(&effect.name());
+        let skips = |effect: Effect| scene.skipped.contains(&effect_name(effect));
         // Heat and layers have no unknowns of their own, but change rates by a part of the tolerance: the control of jumps may take a
         // cycle more or less on another solution, most where it rejects them at the interfaces of a plating.
         let [most_entries, most_unknowns] = if skips(Effect::Friction) || skips(Effect::StickMemory)
@@ -77,10 +78,14 @@ fn hold(scenes: &[(String, Value)]) {
         let decisive = changes.iter().filter(|change| **change > TOLERANCE).count();
         println!(
             "{}: decisive in {decisive} of {called} scenes that call it so",
-            effect.name()
+            effect_name(effect)
         );
         // Half of them at least: the indicators are upper estimates.
-        assert!(2 * decisive >= called, "{}: {changes:?}", effect.name());
+        assert!(
+            2 * decisive >= called,
+            "{}: {changes:?}",
+            effect_name(effect)
+        );
     }
 }
 
@@ -110,7 +115,7 @@ fn compare(name: &str, scene: &Scene) -> Compared {
     let share = |of: fn(&Summary) -> u64| share(of(auto.summary()), of(all_on.summary()));
     Compared {
         name: name.to_owned(),
-        skipped: skipped(&plan).map(Effect::name).collect(),
+        skipped: skipped(&plan).map(effect_name).collect(),
         difference: largest(&auto, &all_on),
         work: [
             share(|summary| summary.resolution.work.response_entries),
@@ -181,8 +186,8 @@ fn table(compared: &[Compared]) -> Table {
     for scene in compared {
         let (difference, output) = scene.difference;
         let decisive = scene.decisive.iter();
-        let decisive =
-            decisive.map(|(effect, change)| format!("{} {:.1} %", effect.name(), 100.0 * change));
+        let decisive = decisive
+            .map(|(effect, change)| format!("{} {:.1} %", effect_name(*effect), 100.0 * change));
         table.add_row([
             scene.name.clone(),
             scene.skipped.join(", "),

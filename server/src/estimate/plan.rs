@@ -12,7 +12,7 @@ use crate::estimate::expected_time::ExpectedTime;
 use crate::estimate::{Estimate, life, notes};
 use crate::export::history;
 use crate::spec::Resolved;
-use crate::words::decisions;
+use crate::words;
 
 impl Estimate {
     /// The plan of the resolved specification, with processor seconds if the machine is calibrated.
@@ -52,20 +52,19 @@ fn planned_effects(scene: &Scene) -> Vec<PlannedEffect> {
 fn planned(decision: effects::Decision) -> PlannedEffect {
     let (effect, indicator) = (decision.effect, decision.indicator());
     PlannedEffect {
-        effect: effect.name().to_owned(),
+        effect: words::effects::name(effect).to_owned(),
         decision: history::decision(decision.verdict),
-        indicator: effect.indicator().to_owned(),
+        indicator: words::effects::indicator(effect).to_owned(),
         // JSON has no infinity.
         value: indicator
             .map(Indicator::value)
             .filter(|value| value.is_finite()),
         threshold: indicator.map(|indicator| indicator.threshold),
-        changes: effect
-            .changes()
+        changes: words::effects::changes(effect)
             .iter()
             .map(|&output| output.to_owned())
             .collect(),
-        reason: decisions::reason(&decision),
+        reason: words::decisions::reason(&decision),
     }
 }
 

@@ -13,7 +13,7 @@ use solver::record::{self, Layer, Record, Side, SideReport};
 use solver::scene::Effect;
 
 use crate::export::{line, resistance, tractions};
-use crate::words::warnings;
+use crate::words::{effects, warnings};
 
 /// The phase of a job.
 pub fn phase(phase: observer::Phase) -> Phase {
@@ -113,7 +113,7 @@ pub fn summary(summary: &record::Summary, cost: Cost, life: Vec<LifeEntry>) -> S
 }
 
 fn named((effect, verdict): (Effect, Verdict)) -> (String, Decision) {
-    (effect.name().to_owned(), decision(verdict))
+    (effects::name(effect).to_owned(), decision(verdict))
 }
 
 /// A decision about an effect.
@@ -129,7 +129,7 @@ pub(crate) fn decision(verdict: Verdict) -> Decision {
 
 fn called_for(crossing: &Crossing) -> EffectCalledFor {
     EffectCalledFor {
-        effect: crossing.effect.name().to_owned(),
+        effect: effects::name(crossing.effect).to_owned(),
         cycle: crossing.cycle,
         // JSON has no infinity.
         value: crossing.value.filter(|value| value.is_finite()),

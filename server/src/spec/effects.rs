@@ -11,11 +11,11 @@ use solver::scene::{Friction, Scene};
 
 use crate::spec::diagnostics::{Diagnostics, shortened};
 use crate::spec::suggestion::did_you_mean;
-use crate::words::decisions;
+use crate::words::{decisions, effects};
 
 /// Names of all effects.
 pub(crate) fn names() -> Vec<&'static str> {
-    Effect::ALL.iter().map(|effect| effect.name()).collect()
+    Effect::ALL.iter().copied().map(effects::name).collect()
 }
 
 /// Switches by the name of their effect; an absent one is `auto`.
@@ -27,7 +27,7 @@ pub(crate) fn resolve(given: &Given, diagnostics: &mut Diagnostics) -> Switches 
     for (name, switch) in given {
         let pointer = format!("/effects/{}", api::spec::pointer_token(name));
         let mut effects = Effect::ALL.iter().copied();
-        let effect = effects.find(|effect| effect.name() == name);
+        let effect = effects.find(|effect| effects::name(*effect) == name);
         if effect.is_none() {
             let names = names();
             let detail = format!(
@@ -81,7 +81,7 @@ pub(crate) fn check(
          `effects.{}`: `off`",
         100.0 * small_strain::cost(scene),
         100.0 * small_strain::limit(scene),
-        Effect::GeometricNonlinearity.name()
+        effects::name(Effect::GeometricNonlinearity)
     );
     diagnostics.fault(&cause(), detail);
 }
@@ -97,7 +97,7 @@ fn check_dose(scene: &Scene, plan: &EffectsPlan, diagnostics: &mut Diagnostics) 
     let heats = [Effect::FrictionalHeating, Effect::JouleHeating];
     let heated = heats.into_iter().find(|effect| plan.simulates(*effect));
     if let (Friction::ByDose(_), Some(effect)) = (&scene.friction, heated) {
-        let name = effect.name();
+        let name = effects::name(effect);
         let detail = format!(
             "the dose of a place follows from its worn depth, which heat changes: write `by_cycle`, or switch `effects.{name}` off"
         );
@@ -108,7 +108,7 @@ fn check_dose(scene: &Scene, plan: &EffectsPlan, diagnostics: &mut Diagnostics) 
 /// Adds a fault for each effect that is switched on and has nothing to simulate in the scene.
 fn check_forced(given: &Given, plan: EffectsPlan, diagnostics: &mut Diagnostics) {
     for decision in plan.decisions {
-        let name = decision.effect.name();
+        let name = effects::name(decision.effect);
         let forced = switch(given, decision.effect) == Some(Switch::On);
         let is_out = matches!(decision.verdict, Verdict::Skipped | Verdict::InputMissing);
         let pointer = format!("/effects/{name}");
@@ -135,7 +135,7 @@ pub(crate) fn warnings(scene: &Scene) -> Vec<Fault> {
     let off = decisions.filter_map(|decision| {
         if decision.verdict == Verdict::InputMissing {
             return Some(Fault {
-                pointer: format!("/effects/{}", decision.effect.name()),
+                pointer: format!("/effects/{}", effects::name(decision.effect)),
                 detail: decisions::reason(&decision),
             });
         }
@@ -153,7 +153,7 @@ pub(crate) fn warnings(scene: &Scene) -> Vec<Fault> {
             });
         }
         decision.is_missed().then(|| Fault {
-            pointer: format!("/effects/{}", decision.effect.name()),
+            pointer: format!("/effects/{}", effects::name(decision.effect)),
             detail: decisions::missed(&decision),
         })
     });
@@ -161,5 +161,5 @@ pub(crate) fn warnings(scene: &Scene) -> Vec<Fault> {
 }
 
 fn switch(given: &Given, effect: Effect) -> Option<Switch> {
-    given.get(effect.name()).and_then(EnumValue::known)
+    given.get(effects::name(effect)).and_then(EnumValue::known)
 }

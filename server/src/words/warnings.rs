@@ -2,7 +2,7 @@
 
 use solver::record::{Excess, Quantity, Warning};
 
-use crate::words::decisions;
+use crate::words::{decisions, effects};
 
 /// A warning.
 pub(crate) fn warning(warning: &Warning) -> String {
@@ -13,7 +13,7 @@ pub(crate) fn warning(warning: &Warning) -> String {
         }
         Warning::NoFinerRun => "a finer run has no solution".to_owned(),
         Warning::Missed(decision) => {
-            let name = decision.effect.name();
+            let name = effects::name(decision.effect);
             format!("{name}: {}", decisions::missed(decision))
         }
     }

@@ -9,12 +9,12 @@ use crate::scene::{
     SurfaceState, Top,
 };
 
-fn simulated(scene: &Scene) -> Vec<&'static str> {
+fn simulated(scene: &Scene) -> Vec<Effect> {
     let plan = plan(scene);
     let decisions = plan.decisions.iter();
     decisions
         .filter(|decision| decision.verdict.is_on())
-        .map(|decision| decision.effect.name())
+        .map(|decision| decision.effect)
         .collect()
 }
 
@@ -24,16 +24,16 @@ fn only_what_the_scene_calls_for_is_simulated() {
     assert_eq!(
         simulated(&scene),
         [
-            "elasticity",
-            "friction",
-            "stick_memory",
-            "receptacle_wear",
-            "relocation"
+            Effect::Elasticity,
+            Effect::Friction,
+            Effect::StickMemory,
+            Effect::ReceptacleWear,
+            Effect::Relocation
         ]
     );
     scene.friction = Friction::Frictionless;
     scene.receptacle.wear = None;
-    assert_eq!(simulated(&scene), ["elasticity"]);
+    assert_eq!(simulated(&scene), [Effect::Elasticity]);
 }
 
 /// A tip of the given half-width, worn to a flat, in a long stroke.
@@ -53,11 +53,11 @@ fn worn_tip(half_width_mm: f64) -> Scene {
 
 #[test]
 fn a_slender_slider_bends_under_friction_and_a_stocky_one_does_not() {
-    assert!(simulated(&worn_tip(0.01)).contains(&"friction"));
-    assert!(!simulated(&worn_tip(0.1)).contains(&"friction"));
+    assert!(simulated(&worn_tip(0.01)).contains(&Effect::Friction));
+    assert!(!simulated(&worn_tip(0.1)).contains(&Effect::Friction));
     let mut held = worn_tip(0.01);
     held.drive = Drive::WholeBody;
-    assert!(!simulated(&held).contains(&"friction"));
+    assert!(!simulated(&held).contains(&Effect::Friction));
 }
 
 #[test]
@@ -69,7 +69,7 @@ fn nothing_wears_where_nothing_slides() {
     };
     assert_eq!(
         simulated(&scene),
-        ["elasticity", "friction", "stick_memory"]
+        [Effect::Elasticity, Effect::Friction, Effect::StickMemory]
     );
 }
 
@@ -80,7 +80,7 @@ fn wear_by_time_calls_for_friction_where_wear_by_distance_does_not() {
     // The walls of a deep groove would require it too.
     scene.cycles = 50;
     scene.friction = Friction::Coulomb { coefficient: 0.05 };
-    let has_friction = |scene: &Scene| simulated(scene).contains(&"friction");
+    let has_friction = |scene: &Scene| simulated(scene).contains(&Effect::Friction);
     assert!(!has_friction(&scene));
     scene.receptacle.wear = Some(WearLaw::OfSpeed(SpeedLaw::MildOxidation(MildOxidation {
         constant: 1.0,
@@ -104,12 +104,12 @@ fn friction_calls_for_sticking_where_nodes_may_stick_only() {
         scene.friction = Friction::Coulomb { coefficient: 0.05 };
         scene.dimension = dimension;
         let crossings = plan(&scene).required_after_failure(7);
-        let effects = crossings.iter().map(|crossing| crossing.effect.name());
+        let effects = crossings.iter().map(|crossing| crossing.effect);
         effects.collect::<Vec<_>>()
     };
     assert_eq!(
         required(Dimension::PlaneStrain),
-        ["friction", "stick_memory"]
+        [Effect::Friction, Effect::StickMemory]
     );
     let ring = Line {
         shape: LineShape::Ring {
@@ -120,5 +120,5 @@ fn friction_calls_for_sticking_where_nodes_may_stick_only() {
         force_n: 0.0834,
         stations: Some(5),
     };
-    assert_eq!(required(Dimension::Line(ring)), ["friction"]);
+    assert_eq!(required(Dimension::Line(ring)), [Effect::Friction]);
 }

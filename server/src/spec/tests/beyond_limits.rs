@@ -1,7 +1,7 @@
 //! Warnings of what is left out although it is beyond its limit.
 
 use super::accepted;
-use crate::words::decisions;
+use crate::words::{decisions, effects};
 
 /// The warning of an effect, if there is one.
 fn warned(text: &str, effect: &str) -> Option<String> {
@@ -12,10 +12,10 @@ fn warned(text: &str, effect: &str) -> Option<String> {
 }
 
 /// Reason of the plan for its decision about an effect.
-fn reason(text: &str, effect: &str) -> String {
+fn reason(text: &str, name: &str) -> String {
     let plan = solver::effects::plan(&accepted(text).scene);
     let mut decisions = plan.decisions.into_iter();
-    let found = decisions.find(|decision| decision.effect.name() == effect);
+    let found = decisions.find(|decision| effects::name(decision.effect) == name);
     decisions::reason(&found.expect("every effect is decided about"))
 }
 
