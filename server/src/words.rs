@@ -4,6 +4,7 @@
 mod absences;
 pub(crate) mod decisions;
 pub mod effects;
+pub(crate) mod errors;
 pub(crate) mod extent;
 pub(crate) mod restarts;
 pub(crate) mod warnings;

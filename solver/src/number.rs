@@ -71,3 +71,9 @@ pub(crate) fn nearest(value: f64) -> usize {
     }
     value.clamp(0.0, 2_147_483_648.0).round() as usize
 }
+
+/// Checks that a value is positive and finite.
+pub(crate) fn positive<E>(value: f64, error: impl Fn(f64) -> E) -> Result<(), E> {
+    let is_positive = value > 0.0 && value.is_finite();
+    is_positive.then_some(()).ok_or_else(|| error(value))
+}

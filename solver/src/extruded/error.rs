@@ -7,14 +7,18 @@ use crate::mesh::MeshError;
 /// Why a run failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ExtrudedError {
-    /// A value of the scene is outside of its range.
-    #[error("{name} is {value}, must be positive")]
-    Value {
-        /// Name and unit.
-        name: &'static str,
-        /// The value.
-        value: f64,
-    },
+    /// The width is outside of its range.
+    #[error("width in mm is {0}, must be positive")]
+    WidthRange(f64),
+    /// The growth of layers is outside of its range.
+    #[error("growth of layers is {0}, must be positive")]
+    GrowthRange(f64),
+    /// The line load is outside of its range.
+    #[error("line load in N/mm is {0}, must be positive")]
+    LoadRange(f64),
+    /// The amplitude is outside of its range.
+    #[error("magnitude of the amplitude in mm is {0}, must be positive")]
+    AmplitudeRange(f64),
     /// No node plane would lie in the middle of the width.
     #[error("{layers} layers over the width, must be an even number from 2 to {limit}")]
     Layers {

@@ -3,7 +3,7 @@
 use super::error::ExtrudedError;
 use crate::closed_form::unworn_contact;
 use crate::mesh::NodePlanes;
-use crate::number::real;
+use crate::number::{positive, real};
 use crate::scene::Effect;
 use crate::scene::{Dimension, Ends, Friction, Motion, Scene};
 use crate::sides::{Side, Sides};
@@ -149,16 +149,10 @@ impl ExtrudedScene {
         ) {
             return Err(ExtrudedError::FrictionLaw);
         }
-        for (name, value) in [
-            ("width in mm", self.width_mm),
-            ("growth of layers", self.growth),
-            ("line load in N/mm", self.section.load_n_per_mm),
-            ("magnitude of the amplitude in mm", amplitude.abs()),
-        ] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(ExtrudedError::Value { name, value });
-            }
-        }
+        positive(self.width_mm, ExtrudedError::WidthRange)?;
+        positive(self.growth, ExtrudedError::GrowthRange)?;
+        positive(self.section.load_n_per_mm, ExtrudedError::LoadRange)?;
+        positive(amplitude.abs(), ExtrudedError::AmplitudeRange)?;
         let is_counted =
             u32::try_from(self.layers).is_ok_and(|layers| (2..=MOST_LAYERS).contains(&layers));
         if !is_counted || !self.layers.is_multiple_of(2) {

@@ -8,14 +8,27 @@ pub enum PointError {
     /// The scene has another dimension.
     #[error("the scene is no point contact")]
     Dimension,
-    /// A value of the scene is outside of its range.
-    #[error("{name} is {value}, must be positive")]
-    Value {
-        /// Name and unit.
-        name: &'static str,
-        /// The value.
-        value: f64,
-    },
+    /// The force is outside of its range.
+    #[error("normal force in N is {0}, must be positive")]
+    ForceRange(f64),
+    /// A curvature is outside of its range.
+    #[error("curvature along the sliding direction in 1/mm is {0}, must be positive")]
+    CurvatureAlongRange(f64),
+    /// The other curvature is outside of its range.
+    #[error("curvature across the sliding direction in 1/mm is {0}, must be positive")]
+    CurvatureAcrossRange(f64),
+    /// The contact modulus is outside of its range.
+    #[error("contact modulus in MPa is {0}, must be positive")]
+    ModulusRange(f64),
+    /// The tolerance is outside of its range.
+    #[error("tolerance is {0}, must be positive")]
+    ToleranceRange(f64),
+    /// The number of cells is outside of its range.
+    #[error("cells along a half-length is {0}, must be positive")]
+    CellsRange(f64),
+    /// The step is outside of its range.
+    #[error("step over half-length is {0}, must be positive")]
+    StepRange(f64),
     /// A contact of which a part may stick moves too far.
     #[error(
         "amplitude is {amplitude_mm} mm, at most {most_mm:.3e} mm where a part of the contact may stick"

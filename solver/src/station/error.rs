@@ -7,14 +7,15 @@ use crate::mesh::MeshError;
 /// Why a run failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StationError {
-    /// A value of the scene is outside of its range.
-    #[error("{name} is {value}, must be positive")]
-    Value {
-        /// Name and unit.
-        name: &'static str,
-        /// The value.
-        value: f64,
-    },
+    /// The force is outside of its range.
+    #[error("normal force in N is {0}, must be positive")]
+    ForceRange(f64),
+    /// The length of the line is outside of its range.
+    #[error("length of the line in mm is {0}, must be positive")]
+    LengthRange(f64),
+    /// The amplitude is outside of its range.
+    #[error("magnitude of the amplitude in mm is {0}, must be positive")]
+    AmplitudeRange(f64),
     /// The ring is displaced by more than its radius.
     #[error(
         "amplitude is {amplitude_mm} mm, must be below the radius of the ring of {radius_mm} mm"
@@ -53,7 +54,7 @@ pub enum StationError {
     },
     /// The receptacle below a ring that bends reaches over the axis of the ring.
     #[error(
-        "the receptacle reaches {half_block_mm} mm to either side of the wire, over the axis of the ring of a radius of {radius_mm} mm: below a ring whose `top` bends it must end there"
+        "the receptacle reaches {half_block_mm} mm to either side of the wire, over the axis of the ring of a radius of {radius_mm} mm"
     )]
     BeyondAxis {
         /// Half of the receptacle's length, mm.

@@ -6,7 +6,7 @@ use super::spacing;
 use crate::closed_form::line_contact::{Touch, touch};
 use crate::closed_form::unworn_contact;
 use crate::law::elastic::contact_modulus;
-use crate::number::{nearest, real};
+use crate::number::{nearest, positive, real};
 use crate::scene::Effect;
 use crate::scene::{Accuracy, Dimension, Drive, Friction, Line, LineShape, Motion, Scene, Top};
 use crate::sides::Side;
@@ -201,15 +201,9 @@ impl StationScene {
                 ..
             } => crown_radius_mm.map_or(width_mm, |radius| radius.min(width_mm)),
         };
-        for (name, value) in [
-            ("normal force in N", self.force_n),
-            ("length of the line in mm", size),
-            ("magnitude of the amplitude in mm", amplitude.abs()),
-        ] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(StationError::Value { name, value });
-            }
-        }
+        positive(self.force_n, StationError::ForceRange)?;
+        positive(size, StationError::LengthRange)?;
+        positive(amplitude.abs(), StationError::AmplitudeRange)?;
         if let LineShape::Ring { radius_mm, .. } = self.line
             && amplitude.abs() >= radius_mm
         {

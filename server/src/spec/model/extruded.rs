@@ -114,7 +114,7 @@ fn check(scene: &Scene, diagnostics: &mut Diagnostics) {
         | ExtrudedError::LeavesReceptacle { .. }
         | ExtrudedError::Motion => "/motion",
         // Others are ranges of fields of their own.
-        ExtrudedError::Value { name, .. } if name.contains("amplitude") => "/motion/amplitude_mm",
+        ExtrudedError::AmplitudeRange(_) => "/motion/amplitude_mm",
         ExtrudedError::UnlikeLayers { .. } => "/model/layer_growth",
         ExtrudedError::FrictionLaw => "/interface/friction",
         ExtrudedError::Law { .. } => "/interface/wear",

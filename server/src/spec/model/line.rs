@@ -13,6 +13,7 @@ use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::assumed;
 use crate::spec::system::{LENGTH_MM, Shapes};
 use crate::spec::unit;
+use crate::words::errors;
 
 /// Outer diameter of a fuzz button's ring, mm: its circumference is the source's length of 3.192 mm. The source gives the ring itself no
 /// dimensions.
@@ -255,9 +256,7 @@ impl Line {
             | StationError::LeavesReceptacle { .. }
             | StationError::Motion => "/motion",
             // Others are ranges of fields of their own.
-            StationError::Value { name, .. } if name.contains("amplitude") => {
-                "/motion/amplitude_mm"
-            }
+            StationError::AmplitudeRange(_) => "/motion/amplitude_mm",
             StationError::BeyondAxis { .. } => "/model/outer_diameter_mm",
             StationError::Spacing { .. } => "/accuracy/overrides/stations",
             StationError::Drive => "/motion/drive",
@@ -265,7 +264,7 @@ impl Line {
             StationError::Law { .. } => "/interface/wear",
             _ => "/model",
         };
-        diagnostics.fault(pointer, error.to_string());
+        diagnostics.fault(pointer, errors::of_line(&error));
     }
 }
 

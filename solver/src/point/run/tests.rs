@@ -274,5 +274,5 @@ fn a_line_contact_is_refused() {
     let mut scene = sphere_on_flat(sides(0.0, 1e-8), 0.1, 1);
     scene.bodies.slider.radius_across_mm = None;
     let found = run(&scene, |_| ControlFlow::Continue(()));
-    assert!(matches!(found, Err(PointError::Value { value, .. }) if value == 0.0));
+    assert!(matches!(found, Err(PointError::CurvatureAcrossRange(value)) if value == 0.0));
 }
