@@ -4,7 +4,17 @@ use proc_macro2::{Delimiter, Spacing, TokenStream, TokenTree};
 use syn::visit::{self, Visit};
 use syn::{Attribute, Expr, ExprCall, ImplItemFn, Item, ItemMod, ItemUse, LitStr, Macro};
 
-use super::sources::{Reference, Sources, Target, attributes, flatten, is_test, line_of};
+use super::sources::{Literal, Reference, Sources, Target, attributes, flatten, is_test, line_of};
+
+/// Macros whose texts are messages of broken invariants.
+const ASSERTIONS: [&str; 6] = [
+    "assert",
+    "assert_eq",
+    "debug_assert",
+    "debug_assert_eq",
+    "panic",
+    "unreachable",
+];
 
 /// Longest chain of re-exports that is followed.
 const MOST_RE_EXPORTS: usize = 16;
@@ -15,6 +25,7 @@ pub(super) fn record(sources: &mut Sources, parsed: &[(usize, syn::File)]) {
         let mut reader = Reader {
             sources,
             module: *module,
+            is_message: false,
         };
         reader.visit_file(file);
     }
@@ -24,6 +35,8 @@ pub(super) fn record(sources: &mut Sources, parsed: &[(usize, syn::File)]) {
 struct Reader<'a> {
     sources: &'a mut Sources,
     module: usize,
+    /// True inside the message of an error or of a broken invariant.
+    is_message: bool,
 }
 
 impl Reader<'_> {
@@ -93,14 +106,34 @@ impl Reader<'_> {
                 TokenTree::Group(group) => self.read_tokens(group.stream()),
                 TokenTree::Literal(literal) => {
                     if let Ok(text) = syn::parse_str::<LitStr>(&literal.to_string()) {
-                        let place = (self.file(), literal.span().start().line, text.value());
-                        self.sources.literals.push(place);
+                        self.add_literal(literal.span().start().line, text.value());
                     }
+                }
+                // Values of attributes are not code.
+                TokenTree::Punct(hash) if hash.as_char() == '#' => {
+                    tokens.next_if(|next| matches!(next, TokenTree::Group(_)));
                 }
                 TokenTree::Punct(_) => {}
             }
         }
         self.refer_tokens(&path, line, false);
+    }
+
+    /// The same of a message of an error or of a broken invariant.
+    fn read_message(&mut self, tokens: TokenStream) {
+        let outer = std::mem::replace(&mut self.is_message, true);
+        self.read_tokens(tokens);
+        self.is_message = outer;
+    }
+
+    fn add_literal(&mut self, line: usize, text: String) {
+        let literal = Literal {
+            file: self.file(),
+            line,
+            text,
+            is_message: self.is_message,
+        };
+        self.sources.literals.push(literal);
     }
 
     fn refer_tokens(&mut self, path: &[String], line: usize, called: bool) {
@@ -160,9 +193,14 @@ impl Visit<'_> for Reader<'_> {
         visit::visit_item_fn(self, item);
     }
 
-    /// Values of attributes (documentation, names of columns) are not code.
+    /// Values of attributes (documentation, names of columns) are not code, messages of errors excepted.
     fn visit_attribute(&mut self, attribute: &Attribute) {
         self.visit_path(attribute.path());
+        if let syn::Meta::List(list) = &attribute.meta
+            && list.path.is_ident("error")
+        {
+            self.read_message(list.tokens.clone());
+        }
     }
 
     fn visit_expr_call(&mut self, call: &ExprCall) {
@@ -186,13 +224,17 @@ impl Visit<'_> for Reader<'_> {
     }
 
     fn visit_lit_str(&mut self, text: &LitStr) {
-        let place = (self.file(), text.span().start().line, text.value());
-        self.sources.literals.push(place);
+        self.add_literal(text.span().start().line, text.value());
     }
 
     fn visit_macro(&mut self, called: &Macro) {
         self.refer_path(&called.path);
-        self.read_tokens(called.tokens.clone());
+        let tokens = called.tokens.clone();
+        if ASSERTIONS.iter().any(|name| called.path.is_ident(name)) {
+            self.read_message(tokens);
+        } else {
+            self.read_tokens(tokens);
+        }
     }
 }
 

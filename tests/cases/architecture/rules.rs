@@ -26,12 +26,15 @@ pub(super) enum Rule {
         &'static [&'static str],
         &'static [&'static str],
     ),
+    /// Texts of the crate are neither sentences nor in backticks, messages of errors and of broken invariants may be sentences; names with
+    /// underscores occur only in these places.
+    NoSentences(&'static str, &'static [&'static str]),
     /// A file of these places holds the handler of one route at most, unless one implementation serves several paths
     /// ([`SEVERAL_PATHS`]).
     OneRoute(&'static [&'static str]),
 }
 
-use Rule::{MustNotName, Nowhere, OneRoute, OnlyIn, OnlyInExcept, TextOnlyIn};
+use Rule::{MustNotName, NoSentences, Nowhere, OneRoute, OnlyIn, OnlyInExcept, TextOnlyIn};
 
 /// Route files whose one implementation serves several paths.
 pub(super) const SEVERAL_PATHS: [&str; 11] = [
@@ -52,7 +55,7 @@ pub(super) const SEVERAL_PATHS: [&str; 11] = [
     "server/src/http/routes/operation/serve_pages.rs",
 ];
 
-pub(super) const RULES: [(&str, Rule); 21] = [
+pub(super) const RULES: [(&str, Rule); 23] = [
     (
         "laws know no mesh",
         MustNotName(
@@ -189,6 +192,10 @@ pub(super) const RULES: [(&str, Rule); 21] = [
         ),
     ),
     (
+        "`solver` speaks no sentences and no names of JSON fields, names of recorded channels excepted",
+        NoSentences("solver", &["solver/src/record"]),
+    ),
+    (
         "sqlx is named only under `store/`",
         OnlyIn("server", &["sqlx"], &["server/src/store"]),
     ),
@@ -243,6 +250,23 @@ pub(super) const RULES: [(&str, Rule); 21] = [
                 "server/src/solve",
                 "server/src/spec",
                 "server/src/words",
+            ],
+        ),
+    ),
+    (
+        "sentences about the engine know nothing of the service or of specifications",
+        MustNotName(
+            &["server/src/words"],
+            &[
+                "server/src/batch",
+                "server/src/cli",
+                "server/src/estimate",
+                "server/src/export",
+                "server/src/http",
+                "server/src/solve",
+                "server/src/spec",
+                "server/src/store",
+                "server/src/worker",
             ],
         ),
     ),

@@ -21,10 +21,18 @@ pub(super) struct Sources {
     pub(super) files: Vec<String>,
     pub(super) modules: Vec<Module>,
     pub(super) references: Vec<Reference>,
-    /// Text constants of the program: file, line, text.
-    pub(super) literals: Vec<(usize, usize, String)>,
+    pub(super) literals: Vec<Literal>,
     /// Handlers of routes: file, line.
     pub(super) routes: Vec<(usize, usize)>,
+}
+
+/// A text constant of the program.
+pub(super) struct Literal {
+    pub(super) file: usize,
+    pub(super) line: usize,
+    pub(super) text: String,
+    /// True for the message of an error or of a broken invariant.
+    pub(super) is_message: bool,
 }
 
 /// A module: a file, or a block inside one.

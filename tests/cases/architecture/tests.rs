@@ -4,6 +4,7 @@ use std::fs;
 
 use super::cycles;
 use super::sources::{Sources, Target};
+use super::violations::is_spoken;
 
 const FILES: [(&str, &str); 5] = [
     (
@@ -17,7 +18,11 @@ const FILES: [(&str, &str); 5] = [
     ),
     (
         "shapes/circle.rs",
-        "pub struct Circle;\npub fn unit() -> &'static str { \"SELECT 1\" }",
+        "pub struct Circle;\npub fn unit() -> &'static str { \"SELECT 1\" }\n\
+         #[derive(Error)]\npub enum CircleError { /// No circle.\n#[error(\"no circle of {0} mm\")] Radius(f64) }\n\
+         pub fn check(a: f64) { debug_assert!(a > 0.0, \"a circle has an area\"); }\n\
+         table! { /// Diameter of it.\n diameter_mm }\n\
+         pub fn told() { say(\"give `a`\"); say(\"radius_mm\"); say(\"round\"); say(\"it is round\") }",
     ),
     (
         "shapes/square.rs",
@@ -87,8 +92,25 @@ fn paths_into_other_crates_are_expanded_and_texts_are_found() {
         sources
             .literals
             .iter()
-            .any(|(_, line, text)| *line == 2 && text == "SELECT 1")
+            .any(|literal| literal.line == 2 && literal.text == "SELECT 1")
     );
+}
+
+#[test]
+fn sentences_and_names_of_fields_are_found_beside_messages() {
+    let sources = read();
+    let spoken = |may_name: bool| {
+        let literals = sources.literals.iter();
+        let spoken = literals.filter(move |literal| is_spoken(literal, may_name));
+        let texts = spoken.map(|literal| literal.text.as_str());
+        texts.collect::<Vec<_>>()
+    };
+    let expected = ["give `a`", "radius_mm", "it is round"];
+    assert_eq!(spoken(false), expected);
+    assert_eq!(spoken(true), ["give `a`", "it is round"]);
+    let messages = sources.literals.iter().filter(|literal| literal.is_message);
+    let messages: Vec<_> = messages.map(|literal| literal.text.as_str()).collect();
+    assert_eq!(messages, ["no circle of {0} mm", "a circle has an area"]);
 }
 
 #[test]

@@ -2,9 +2,11 @@
 
 use std::fmt;
 
-use super::rules::Rule::{self, MustNotName, Nowhere, OneRoute, OnlyIn, OnlyInExcept, TextOnlyIn};
+use super::rules::Rule::{
+    self, MustNotName, NoSentences, Nowhere, OneRoute, OnlyIn, OnlyInExcept, TextOnlyIn,
+};
 use super::rules::{RULES, SEVERAL_PATHS};
-use super::sources::{Sources, Target};
+use super::sources::{Literal, Sources, Target};
 
 /// Something that contradicts a rule.
 pub(super) struct Violation {
@@ -54,6 +56,7 @@ fn places(rule: &Rule) -> Vec<&'static str> {
         OnlyIn(_, _, places)
         | OnlyInExcept(_, _, _, places)
         | TextOnlyIn(_, _, places)
+        | NoSentences(_, places)
         | OneRoute(places) => places.to_vec(),
         Nowhere(..) => Vec::new(),
     }
@@ -117,13 +120,20 @@ fn check(sentence: &'static str, rule: &Rule, sources: &Sources, found: &mut Vec
             }
         }
         TextOnlyIn(name, starts, places) if sources.name == *name => {
-            for (file, line, text) in &sources.literals {
-                if !within(*file, places)
+            for literal in sources.literals.iter().filter(|text| !text.is_message) {
+                if !within(literal.file, places)
                     && let Some(start) = starts
                         .iter()
-                        .find(|start| text.trim_start().starts_with(*start))
+                        .find(|start| literal.text.trim_start().starts_with(*start))
                 {
-                    report(*file, start, *line);
+                    report(literal.file, start, literal.line);
+                }
+            }
+        }
+        NoSentences(name, places) if sources.name == *name => {
+            for literal in &sources.literals {
+                if is_spoken(literal, within(literal.file, places)) {
+                    report(literal.file, &literal.text, literal.line);
                 }
             }
         }
@@ -150,6 +160,16 @@ fn add(found: &mut Vec<Violation>, rule: &'static str, what: String, line: Optio
             lines: line.into_iter().collect(),
         }),
     }
+}
+
+/// Checks whether a text is a sentence, has a name in backticks, or is a name with underscores that may not occur.
+pub(super) fn is_spoken(literal: &Literal, may_name: bool) -> bool {
+    let text = &literal.text;
+    let words = text.split_whitespace();
+    let words = words.filter(|word| word.contains(char::is_alphabetic));
+    let of_name = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "_{}".contains(c);
+    let is_name = text.contains('_') && text.chars().all(of_name);
+    text.contains('`') || !literal.is_message && (words.count() > 1 || is_name && !may_name)
 }
 
 /// Checks whether a path begins with these names, separated by `::`.
