@@ -8,3 +8,6 @@ pub(crate) mod errors;
 pub(crate) mod extent;
 pub(crate) mod restarts;
 pub(crate) mod warnings;
+
+#[cfg(test)]
+mod tests;
