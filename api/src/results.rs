@@ -6,6 +6,7 @@ mod life;
 mod line;
 mod manifest;
 mod mission;
+mod quantity;
 mod resistance;
 mod snapshot;
 mod summary;
@@ -16,6 +17,7 @@ pub use life::{LifeBand, LifeEntry, LifeStatus};
 pub use line::{LineProfile, LineProfiles, LineSeries, LineStation, SectionSide};
 pub use manifest::{Manifest, ResultFile};
 pub use mission::{BlockExtent, BlockSide, BlockSummary};
+pub use quantity::{Quantities, Quantity};
 pub use resistance::{ContactResistance, ResistanceParts};
 pub use snapshot::{
     Loop, Pressure, PressurePosition, Profile, SideProfile, SlidePosition, Snapshot,

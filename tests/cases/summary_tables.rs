@@ -92,7 +92,7 @@ fn shows_figures(tables: &str, document: &Value) {
     // No mission is repeated.
     assert!(!tables.contains("repetitions"), "{tables}");
     for side in ["slider", "receptacle"] {
-        let shown = cell(tables, &["depth, um"], side);
+        let shown = cell(tables, &["deepest wear, µm"], side);
         agrees(shown, &document[side]["max_depth_mm"], 1e3);
     }
     let peak = |column: &str| cell(tables, &["peak pressure, MPa"], column);
@@ -125,7 +125,7 @@ async fn a_solve_ends_with_its_lives_and_a_watch_with_the_same_tables() {
     };
     let order = [
         "life until",
-        "| worn",
+        "| wear",
         "| contact",
         "estimated errors: ",
         " MiB",

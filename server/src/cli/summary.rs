@@ -1,7 +1,10 @@
 //! The summary of a solve as an engineer reads it: lives first, then wear, contact, errors and cost.
 
 use api::problem::Fault;
-use api::results::{BlockSummary, LifeEntry, LifeStatus, SideSummary, Summary};
+use api::results::{
+    BlockSummary, ContactExtent, Initial, LifeEntry, LifeStatus, Quantities, Quantity, SideSummary,
+    Summary,
+};
 use api::spec::Spec;
 use comfy_table::Table;
 
@@ -9,11 +12,6 @@ use crate::cli::figures::{rounded, until};
 use crate::cli::terminal::{Ended, printable, write_err, write_json, write_out};
 use crate::export::markdown;
 use crate::spec::is_continuous;
-
-/// mm to um, mm^2 to um^2 and mm^3 to um^3.
-const UM: f64 = 1e3;
-const UM2: f64 = 1e6;
-const UM3: f64 = 1e9;
 
 /// How a summary is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -149,56 +147,71 @@ fn reasons(life: &[LifeEntry]) -> String {
 }
 
 fn wear(summary: &Summary) -> Table {
-    let mut table = markdown::table(["worn", "slider", "receptacle"], 1);
+    let mut table = markdown::table(["wear", "slider", "receptacle"], 1);
     let sides = [&summary.slider, &summary.receptacle];
-    let mut row = |name: &str, value: &dyn Fn(&SideSummary) -> Option<f64>| {
-        let values = sides.map(value);
+    let mut row = |name: String, values: [String; 2]| {
         // A quantity that neither side has is left out.
-        if values.iter().any(Option::is_some) {
-            let [slider, receptacle] = values.map(shown);
-            table.add_row([name.to_owned(), slider, receptacle]);
+        if values.iter().any(|value| !value.is_empty()) {
+            let [slider, receptacle] = values;
+            table.add_row([name, slider, receptacle]);
         }
     };
-    row("depth, um", &|side| Some(UM * side.max_depth_mm));
-    row("half-width of the scar, um", &|side| {
-        Some(UM * side.scar_half_width_mm)
+    for quantity in SideSummary::QUANTITIES {
+        row(heading(quantity), sides.map(|side| figure(quantity, side)));
+    }
+    let over_ideal = sides.map(|side| {
+        let ideal = side.ideal_area_mm2.filter(|ideal| *ideal > 0.0);
+        shown(ideal.map(|ideal| side.worn_area_mm2 / ideal))
     });
-    row("area, um^2", &|side| Some(UM2 * side.worn_area_mm2));
-    row("area / (k P s)", &|side| {
-        let ideal = side.ideal_area_mm2.filter(|ideal| *ideal > 0.0)?;
-        Some(side.worn_area_mm2 / ideal)
-    });
-    row("volume, um^3", &|side| Some(UM3 * side.worn_volume_mm3?));
+    row("area / (k P s)".to_owned(), over_ideal);
     table
 }
 
 fn contact(summary: &Summary) -> Table {
     let mut table = markdown::table(["contact", "unworn", "at the end"], 1);
-    let initial = &summary.initial;
-    let mut row = |name: &str, unworn: f64, end: f64| {
-        table.add_row([name.to_owned(), rounded(unworn), rounded(end)]);
+    let mut row = |name: String, unworn: String, end: String| {
+        table.add_row([name, unworn, end]);
     };
-    row(
-        "peak pressure, MPa",
-        initial.peak_pressure_mpa,
-        summary.peak_pressure_mpa,
-    );
-    row(
-        "half-width, um",
-        UM * initial.contact_half_width_mm,
-        UM * summary.contact_half_width_mm,
-    );
+    for quantity in Summary::QUANTITIES {
+        let mut of_unworn = Initial::QUANTITIES.iter();
+        let unworn = of_unworn.find(|unworn| unworn.name == quantity.name);
+        let unworn = unworn.map(|unworn| figure(unworn, &summary.initial));
+        row(
+            heading(quantity),
+            unworn.unwrap_or_default(),
+            figure(quantity, summary),
+        );
+    }
+    if let Some(extent) = &summary.extent {
+        for quantity in ContactExtent::QUANTITIES {
+            row(heading(quantity), String::new(), figure(quantity, extent));
+        }
+    }
     if let Some(resistance) = &summary.contact_resistance_mohm {
-        row("resistance, mOhm", resistance.initial, resistance.r#final);
+        row(
+            "resistance, mOhm".to_owned(),
+            rounded(resistance.initial),
+            rounded(resistance.r#final),
+        );
     }
     if let Some(temperature) = &summary.contact_temperature_c {
-        table.add_row([
+        row(
             "highest temperature, °C".to_owned(),
             String::new(),
             rounded(temperature.highest),
-        ]);
+        );
     }
     table
+}
+
+/// Title of a quantity with the unit in which it is shown.
+fn heading<P>(quantity: &Quantity<P>) -> String {
+    format!("{}, {}", quantity.title, quantity.unit)
+}
+
+/// Value of a quantity in that unit; empty where the part has none.
+fn figure<P>(quantity: &Quantity<P>, part: &P) -> String {
+    shown((quantity.value)(part).map(|value| quantity.factor * value))
 }
 
 /// Shares of the blocks of a mission in the wear.
