@@ -17,7 +17,7 @@ pub use life::{LifeBand, LifeEntry, LifeStatus};
 pub use line::{LineProfile, LineProfiles, LineSeries, LineStation, SectionSide};
 pub use manifest::{Manifest, ResultFile};
 pub use mission::{BlockExtent, BlockSide, BlockSummary};
-pub use quantity::{Quantities, Quantity};
+pub use quantity::{Quantities, Quantity, QuantityDescription, QuantityList};
 pub use resistance::{ContactResistance, ResistanceParts};
 pub use snapshot::{
     Loop, Pressure, PressurePosition, Profile, SideProfile, SlidePosition, Snapshot,

@@ -15,6 +15,7 @@ pub mod markdown;
 pub(crate) mod mission;
 pub mod parquet;
 pub mod pictures;
+pub mod quantities;
 pub(crate) mod resistance;
 pub mod thin;
 pub mod tractions;

@@ -135,6 +135,7 @@ async fn answers(server: &Server, subjects: &Subjects) -> Value {
         ("Pressure", format!("{results}/pressure")),
         ("Profile", format!("{results}/profile")),
         ("WearHistory", format!("{results}/wear-history")),
+        ("QuantityList", "/v1/quantities".to_owned()),
         ("Spec", format!("/v1/jobs/{job}/spec")),
         ("Labels", "/v1/labels".to_owned()),
         ("ServiceOverview", "/v1/service".to_owned()),

@@ -1,5 +1,8 @@
 //! Quantities: the named numbers of a summary, and the macro that declares a part of a summary with them.
 
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
 /// A named number of a part `P` of a summary.
 #[derive(Debug)]
 pub struct Quantity<P> {
@@ -22,7 +25,7 @@ pub trait Quantities: Sized + 'static {
 }
 
 /// Declares a part of a summary with its quantities: the fields that are followed by a title, and by the factor to the
-/// unit in which they are shown. The tables of the command line have them all.
+/// unit in which they are shown. Tables, pages and the list of the interface have them all.
 macro_rules! quantities {
     (
         $(#[$attribute:meta])*
@@ -52,3 +55,29 @@ macro_rules! quantities {
     };
 }
 pub(super) use quantities;
+
+/// A quantity of summaries, as pages show it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct QuantityDescription {
+    /// Name of its column in the table of a sweep; it ends with the unit of the values.
+    pub column: String,
+    /// JSON pointer to it in a summary; absent where it follows from several fields.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pointer: Option<String>,
+    /// Title.
+    pub title: String,
+    /// The side that it belongs to; absent of the whole contact.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub side: Option<String>,
+    /// Unit in which it is shown; empty of a count.
+    pub unit: String,
+    /// Factor from the unit of the values to that one.
+    pub factor: f64,
+}
+
+/// The quantities of summaries (`GET /v1/quantities`).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct QuantityList {
+    /// In the order of the columns.
+    pub quantities: Vec<QuantityDescription>,
+}

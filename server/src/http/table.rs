@@ -92,6 +92,7 @@ pub(super) fn routes_and_document() -> (Router<App>, Document) {
         .routes(routes!(jobs::feed::all_events))
         .routes(routes!(jobs::list_labels::labels))
         .routes(routes!(results::compare_histories::histories))
+        .routes(routes!(results::list_quantities::list_quantities))
         .routes(routes!(operation::show_service::service))
         .routes(routes!(operation::list_workers::workers))
         .routes(routes!(operation::drain_worker::drain_worker))

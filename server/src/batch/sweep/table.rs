@@ -1,42 +1,17 @@
-//! The results of a sweep as one table: a row per job, first its changes against the base, then its figures.
+//! The results of a sweep as one table: a row per job, first its changes against the base, then the quantities of its summary.
 
 use std::collections::BTreeSet;
 
 use ::csv::Writer;
 use api::job::Outcome;
-use api::results::Summary;
 use api::sweep::SweepRequest;
 use serde_json::Value;
 
 use crate::batch::error::EvaluateError;
 use crate::export::csv::CsvError;
 use crate::export::documents::DocumentError;
+use crate::export::quantities::{self, Column};
 use crate::store::{BatchJob, StoredBatch};
-
-type Figure = (&'static str, fn(&Summary) -> f64);
-
-/// Figures of a summary that the table shows.
-const FIGURES: [Figure; 11] = [
-    ("sliding_distance_mm", |s| s.sliding_distance_mm),
-    ("receptacle_max_depth_mm", |s| s.receptacle.max_depth_mm),
-    ("receptacle_worn_area_mm2", |s| s.receptacle.worn_area_mm2),
-    ("receptacle_scar_half_width_mm", |s| {
-        s.receptacle.scar_half_width_mm
-    }),
-    ("slider_max_depth_mm", |s| s.slider.max_depth_mm),
-    ("slider_worn_area_mm2", |s| s.slider.worn_area_mm2),
-    ("slider_scar_half_width_mm", |s| s.slider.scar_half_width_mm),
-    ("peak_pressure_mpa", |s| s.peak_pressure_mpa),
-    ("dissipated_energy_mj_per_mm", |s| {
-        s.dissipated_energy_mj_per_mm
-    }),
-    ("estimated_relative_error", |s| {
-        s.accuracy.estimated_relative_error
-    }),
-    ("cpu_s", |s| s.cost.cpu_s),
-];
-/// Column of the cycles after which the first criterion of life was reached; empty where none was.
-const FIRST_LIFE: &str = "first_life_cycles";
 
 /// Returns the table as CSV; cells of jobs without a result are empty.
 ///
@@ -73,9 +48,7 @@ fn write(
 ) -> Result<Vec<u8>, CsvError> {
     let mut header = vec!["job".to_owned(), "status".to_owned(), "outcome".to_owned()];
     header.extend(pointers.iter().map(|pointer| harmless(pointer)));
-    header.push("cycles_done".to_owned());
-    header.extend(FIGURES.map(|(name, _)| name.to_owned()));
-    header.push(FIRST_LIFE.to_owned());
+    header.extend(quantities::columns(None).iter().map(Column::header));
     let mut writer = Writer::from_writer(Vec::new());
     if with_header {
         writer.write_record(header)?;
@@ -86,23 +59,14 @@ fn write(
         cells.extend([job.status.as_str(), outcome].map(str::to_owned));
         let overrides = pointers.iter().map(|pointer| job.overrides.get(*pointer));
         cells.extend(overrides.map(|value| value.map(cell).unwrap_or_default()));
-        let figure = |value: &dyn Fn(&Summary) -> String| {
-            job.summary.as_ref().map(value).unwrap_or_default()
-        };
-        cells.push(figure(&|summary| summary.cycles_done.to_string()));
-        cells.extend(FIGURES.map(|(_, value)| figure(&|summary| value(summary).to_string())));
-        cells.push(figure(&first_life));
+        let columns = quantities::columns(job.summary.as_ref());
+        let values = columns.iter().map(|column| column.value);
+        cells.extend(values.map(|value| value.map_or_else(String::new, |value| value.to_string())));
         writer.write_record(cells)?;
     }
     writer
         .into_inner()
         .map_err(|error| CsvError(error.to_string()))
-}
-
-fn first_life(summary: &Summary) -> String {
-    let cycles = summary.life.iter().filter_map(|life| life.cycles);
-    let first = cycles.min_by(f64::total_cmp);
-    first.map(|cycles| cycles.to_string()).unwrap_or_default()
 }
 
 fn cell(value: &Value) -> String {
