@@ -7,6 +7,7 @@ import { reached_again, when_reached_again } from "../parts/connection.js";
 import { element } from "../parts/element.js";
 import { motion_card } from "../parts/motion.js";
 import { has_ended } from "../parts/status.js";
+import { listed_quantities } from "../parts/summary.js";
 import { throttled } from "../parts/throttled.js";
 import { checks_card, cost_card, errors_card } from "./accuracy.js";
 import { effects_card, warnings_card } from "./effects.js";
@@ -47,9 +48,9 @@ export async function job_page(content, { id }, signal) {
     await Promise.all([history.load(job, signal), snapshots.load(job, signal)]);
   };
   const show_end = async () => {
-    const listed = await fetch_json(job.links.results, { signal });
+    const [listed, quantities] = await Promise.all([fetch_json(job.links.results, { signal }), listed_quantities(signal)]);
     const { summary } = job;
-    fill(results, summary ? [result_card(job), life_card(job), errors_card(job), failure_card(job), warnings_card(job)] : [failure_card(job), warnings_card(job)]);
+    fill(results, summary ? [result_card(job, quantities), life_card(job), errors_card(job), failure_card(job), warnings_card(job)] : [failure_card(job), warnings_card(job)]);
     fill(details, [...(summary ? [stations_card(job), checks_card(job), cost_card(job)] : []), files_card(listed)]);
     await Promise.all([maps.load(listed, signal), fields.load(job, listed)]);
   };

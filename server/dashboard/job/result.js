@@ -2,31 +2,47 @@
 
 import { card, definitions, table } from "../parts/element.js";
 import { count, length, number, words } from "../parts/format.js";
+import { value_in, with_unit } from "../parts/summary.js";
+
+/** @typedef {import("../parts/summary.js").Listed} Listed */
+
+const SIDES = ["receptacle", "slider"];
+
+/** Parts of a summary that other cards show. */
+const OTHER_CARDS = ["accuracy", "cost"];
 
 /**
- * The key figures of a summary.
+ * The quantities of a summary.
  * @param {any} job
+ * @param {Listed[]} listed
  * @returns {HTMLElement}
  */
-export function result_card({ summary, spec }) {
-  const { receptacle, slider, initial, accuracy, extent } = summary;
-  const worn = /** @type {[string, any][]} */ ([["receptacle", receptacle], ["slider", slider]]);
-  const rows = worn.map(([name, side]) => [name, length(side.max_depth_mm), length(side.scar_half_width_mm), `${number(side.worn_area_mm2, 1e6)} µm²`,
-    side.worn_volume_mm3 == null ? "" : `${number(side.worn_volume_mm3, 1e9)} µm³`]);
+export function result_card({ summary, spec }, listed) {
+  const shown = (/** @type {Listed} */ quantity) => with_unit(value_in(summary, quantity), quantity);
+  const worn = [...Map.groupBy(listed.filter(({ side }) => side), ({ title }) => title)].filter(([, sides]) => sides.some(shown));
+  const rows = SIDES.map((side) => [side, ...worn.map(([, sides]) => sides.filter((one) => one.side === side).map(shown).join(""))]);
+  const contact = listed.filter(({ side, pointer }) => !side && pointer && !OTHER_CARDS.includes(pointer.split("/")[1]));
   const resistance = summary.contact_resistance_mohm;
   return card("Result",
-    table({ head: ["side", "deepest wear", "scar half-width", "worn area", worn.some(([, side]) => side.worn_volume_mm3 != null) ? "worn volume" : ""], rows, numbers: [1, 2, 3, 4] }),
+    table({ head: ["side", ...worn.map(([title]) => title)], rows, numbers: worn.map((_, index) => index + 1) }),
     definitions([
       ["outcome", words(summary.outcome)],
-      ["cycles", `${count(summary.cycles_done)}, ${count(accuracy.computed_cycles)} of them computed`],
-      ["sliding distance", `${number(summary.sliding_distance_mm, 1e-3)} m`],
-      ["peak pressure, unworn → worn", `${number(initial.peak_pressure_mpa)} → ${number(summary.peak_pressure_mpa)} MPa`],
-      ["contact half-width, unworn → worn", `${length(initial.contact_half_width_mm)} → ${length(summary.contact_half_width_mm)}`],
-      ["force", extent?.load_n == null ? null : `${number(extent.load_n)} N`],
-      ["dissipated energy", summary.dissipated_energy_mj_per_mm == null ? null : `${number(summary.dissipated_energy_mj_per_mm)} mJ/mm`],
+      ["computed cycles", count(summary.accuracy.computed_cycles)],
+      ...contact.map((quantity) => entry(summary, quantity)),
       ["contact resistance", resistance?.initial == null ? null : `${number(resistance.initial)} → ${number(resistance.final)} mΩ`],
-      ["thinnest plating that remains", plating_left(spec, worn)],
+      ["thinnest plating that remains", plating_left(spec, summary)],
     ]));
+}
+
+/**
+ * A quantity of the contact, behind that of the unworn one where it is known.
+ * @param {any} summary
+ * @param {Listed} quantity
+ * @returns {[string, string]}
+ */
+function entry(summary, quantity) {
+  const [before, after] = [summary.initial[quantity.column], value_in(summary, quantity)].map((value) => with_unit(value, quantity));
+  return before ? [`${quantity.title}, unworn → worn`, `${before} → ${after}`] : [quantity.title, after];
 }
 
 /**
@@ -46,12 +62,12 @@ export function stations_card({ summary }) {
 /**
  * The plating that remains at the deepest place of each plated side.
  * @param {any} spec
- * @param {[string, any][]} worn
+ * @param {any} summary
  */
-function plating_left(spec, worn) {
+function plating_left(spec, summary) {
   const thickness = (/** @type {string} */ side) => (spec.plating?.[side] ?? []).reduce((/** @type {number} */ sum, /** @type {any} */ { thickness_um, thickness_mm }) => sum + (thickness_mm ?? thickness_um / 1e3), 0);
-  return worn.filter(([side]) => thickness(side) > 0).map(([side, { max_depth_mm }]) => {
-    const left = thickness(side) - max_depth_mm;
+  return SIDES.filter((side) => thickness(side) > 0).map((side) => {
+    const left = thickness(side) - summary[side].max_depth_mm;
     return `${left > 0 ? length(left) : "none"} of ${length(thickness(side))} (${side})`;
   }).join(", ");
 }

@@ -8,8 +8,10 @@ import { element } from "../parts/element.js";
 import { count } from "../parts/format.js";
 import { follow } from "../parts/feed.js";
 import { has_ended } from "../parts/status.js";
+import { listed_quantities } from "../parts/summary.js";
 import { throttled } from "../parts/throttled.js";
 import { fields_of, load_points } from "./points.js";
+import { ordered } from "./quantities.js";
 import { refused_card } from "./refused.js";
 import { PointsTable } from "./table.js";
 import { View } from "./view.js";
@@ -20,7 +22,7 @@ const RELOAD_MS_A_JOB = 3;
 
 /** @type {import("../main.js").Page} */
 export async function sweep_page(content, { id }, signal) {
-  let { sweep, points } = await load_points(id ?? "", signal);
+  let [{ sweep, points }, listed] = await Promise.all([load_points(id ?? "", signal), listed_quantities(signal)]);
   document.title = `${name_of(sweep, "sweep")} · fretwear`;
   const reload = throttled(async () => {
     const progress = new Map(points.map((point) => [point.id, point.progress]));
@@ -29,8 +31,9 @@ export async function sweep_page(content, { id }, signal) {
     await show();
   }, Math.max(RELOAD_MS, RELOAD_MS_A_JOB * points.length), signal);
   const head = new Head(sweep, "sweep", reload);
-  const view = new View(signal);
-  const table = new PointsTable();
+  const quantities = ordered(listed);
+  const view = new View(quantities, signal);
+  const table = new PointsTable(quantities);
   const base = element("div", { class: "cards" });
   const part = element("p", { class: "muted", hidden: true });
   const refused = element("div", { class: "cards" });

@@ -13,10 +13,13 @@ export class PointsTable {
   #head = element("tr");
   #body = element("tbody");
   #columns = "";
+  #quantities;
   /** Rows by job, with what they show. @type {Map<string, {node: HTMLElement, status: HTMLElement, shown: string}>} */
   #rows = new Map();
 
-  constructor() {
+  /** @param {import("./quantities.js").Quantity[]} quantities */
+  constructor(quantities) {
+    this.#quantities = quantities;
     this.node = card("Points", element("div", { class: "scroll", tabindex: "0" }, element("table", { class: "points" }, element("thead", {}, this.#head), this.#body)));
   }
 
@@ -26,7 +29,7 @@ export class PointsTable {
    */
   show(points) {
     const fields = fields_of(points);
-    const quantities = present(points.map(({ row }) => row));
+    const quantities = present(this.#quantities, points.map(({ row }) => row));
     const heads = ["job", ...fields.map(({ pointer }) => heading(pointer)), "status", ...quantities.map(title_of)];
     const columns = [...heads, ...points.map(({ id }) => id)].join("\n");
     const is_new = columns !== this.#columns;

@@ -17,12 +17,17 @@ export class View {
   #selects = Object.fromEntries(["quantity", "view", "x", "y", "rest"].map((name) => [name, select(name)]));
   #chart;
   #map;
+  #quantities;
   #hint = element("p", { class: "muted" });
   /** @type {import("./points.js").Point[]} */
   #points = [];
 
-  /** @param {AbortSignal} signal */
-  constructor(signal) {
+  /**
+   * @param {import("./quantities.js").Quantity[]} quantities
+   * @param {AbortSignal} signal
+   */
+  constructor(quantities, signal) {
+    this.#quantities = quantities;
     this.#chart = new Chart({ name: "sweep", signal, state: choices });
     this.#map = new HeatMap("sweep-map", signal);
     this.node = element("section", { class: "view", hidden: true, "aria-label": "chart" },
@@ -41,7 +46,7 @@ export class View {
     const { values } = address();
     const varied = fields_of(points).filter((one) => one.values.length > 1);
     const numbers = varied.filter(({ is_number }) => is_number);
-    const quantities = present(points.map(({ row }) => row));
+    const quantities = present(this.#quantities, points.map(({ row }) => row));
     const views = [varied.length > 1 && ["map", "heat map"], numbers.length > 0 && ["curves", "curves"]].filter((one) => one !== false);
     this.node.hidden = quantities.length === 0 || views.length === 0;
     if (this.node.hidden) return;
