@@ -31,7 +31,7 @@ use evaluation::evaluate;
 
 pub use error::StudyError;
 pub use outcomes::study;
-pub use run::{Found, Run};
+pub use run::{Run, RunResult};
 pub use run_plan::{BUDGET_S, Base, RunPlan, RunPlanError};
 
 /// A study on this machine.

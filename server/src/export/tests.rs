@@ -17,7 +17,7 @@ const PEAK_ROW: usize = 42;
 const PEAK_CYCLE: u64 = 42;
 
 /// A channel where documents have it.
-struct Found {
+struct DocumentChannel {
     side: Option<&'static str>,
     name: &'static str,
     curve: &'static str,
@@ -27,7 +27,7 @@ struct Found {
     is_required: bool,
 }
 
-impl Found {
+impl DocumentChannel {
     fn new<R>(side: Option<&'static str>, schema: &'static str) -> impl Fn(&Channel<R>) -> Self {
         move |channel| Self {
             side,
@@ -81,23 +81,27 @@ impl Found {
     }
 }
 
-fn channels() -> Vec<Found> {
+fn channels() -> Vec<DocumentChannel> {
     let sides = ["receptacle", "slider"].map(|side| {
-        let found = Found::new(Some(side), "SideSeries");
+        let found = DocumentChannel::new(Some(side), "SideSeries");
         SideReport::CHANNELS.iter().map(found).collect::<Vec<_>>()
     });
-    let contact = Found::new(None, "WearHistory");
+    let contact = DocumentChannel::new(None, "WearHistory");
     let contact = CycleReport::CHANNELS.iter().map(contact);
-    let resistance = ResistanceReport::CHANNELS.iter().map(|channel| Found {
-        part: Some("resistance"),
-        is_required: false,
-        ..Found::new(None, "WearHistory")(channel)
-    });
-    let temperature = TemperatureReport::CHANNELS.iter().map(|channel| Found {
-        part: Some("temperature"),
-        is_required: false,
-        ..Found::new(None, "WearHistory")(channel)
-    });
+    let resistance = ResistanceReport::CHANNELS
+        .iter()
+        .map(|channel| DocumentChannel {
+            part: Some("resistance"),
+            is_required: false,
+            ..DocumentChannel::new(None, "WearHistory")(channel)
+        });
+    let temperature = TemperatureReport::CHANNELS
+        .iter()
+        .map(|channel| DocumentChannel {
+            part: Some("temperature"),
+            is_required: false,
+            ..DocumentChannel::new(None, "WearHistory")(channel)
+        });
     let contact = contact.chain(resistance).chain(temperature);
     sides.into_iter().flatten().chain(contact).collect()
 }

@@ -4,7 +4,7 @@ use api::study::{Study, StudyDocument, StudyJob};
 
 use crate::batch::accuracy::evaluation::evaluate;
 use crate::batch::accuracy::evaluation_plan::EvaluationPlan;
-use crate::batch::accuracy::run::{Found, Run};
+use crate::batch::accuracy::run::{Run, RunResult};
 use crate::batch::accuracy::run_accuracy::RunAccuracy;
 use crate::batch::error::EvaluateError;
 use crate::batch::kind::Kind;
@@ -97,7 +97,7 @@ fn run(job: &BatchJob) -> Result<Option<Run>, EvaluateError> {
     })?;
     let summary = job.summary.as_ref();
     let found = if let (Some(summary), Some(profile)) = (summary, profile) {
-        Ok(Found::new(summary.clone(), &profile))
+        Ok(RunResult::new(summary.clone(), &profile))
     } else {
         let reason = job.status_reason.as_deref();
         Err(reason.unwrap_or(job.status.as_str()).to_owned())

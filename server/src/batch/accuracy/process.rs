@@ -6,7 +6,7 @@ use std::time::Duration;
 use api::results::Profile;
 use api::spec::Spec;
 
-use crate::batch::accuracy::{Found, StudyError};
+use crate::batch::accuracy::{RunResult, StudyError};
 use crate::solve::process::{LineError, SolveCommand};
 use crate::solve::{ChildMessage, children_cpu_s};
 
@@ -18,7 +18,7 @@ const NO_CHECKPOINTS: Duration = Duration::from_secs(1_000_000);
 ///
 /// # Errors
 /// [`StudyError`] if the process cannot be started or its output cannot be read.
-pub fn solve(program: &Path, spec: &Spec) -> Result<(Result<Found, String>, f64), StudyError> {
+pub fn solve(program: &Path, spec: &Spec) -> Result<(Result<RunResult, String>, f64), StudyError> {
     let spec = serde_json::to_string(spec)?;
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
@@ -33,7 +33,7 @@ pub fn solve(program: &Path, spec: &Spec) -> Result<(Result<Found, String>, f64)
     Ok((found, children_cpu_s() - before))
 }
 
-async fn run(program: &Path, spec: &str) -> Result<Result<Found, String>, LineError> {
+async fn run(program: &Path, spec: &str) -> Result<Result<RunResult, String>, LineError> {
     let command = SolveCommand {
         program,
         folder: &std::env::temp_dir(),
@@ -50,7 +50,7 @@ async fn run(program: &Path, spec: &str) -> Result<Result<Found, String>, LineEr
     while let Some(received) = process.next_line().await? {
         match received.line {
             ChildMessage::Snapshot(snapshot) => profile = snapshot.profile,
-            ChildMessage::Summary(summary) => found = Some(Ok(Found::new(*summary, &profile))),
+            ChildMessage::Summary(summary) => found = Some(Ok(RunResult::new(*summary, &profile))),
             ChildMessage::Failed(failure) => found = Some(Err(failure.reason)),
             _ => {}
         }

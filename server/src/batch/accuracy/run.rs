@@ -13,18 +13,18 @@ pub struct Run {
     /// Processor seconds.
     pub cpu_s: f64,
     /// Result, or why it failed.
-    pub found: Result<Found, String>,
+    pub found: Result<RunResult, String>,
 }
 
 /// Result of a run.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Found {
+pub struct RunResult {
     /// Summary of the run.
     pub summary: Summary,
     pub(super) solution: Solution,
 }
 
-impl Found {
+impl RunResult {
     /// From the summary and the last profile of a run.
     pub fn new(summary: Summary, last: &Profile) -> Self {
         let solution = Solution::of(&summary, last);
