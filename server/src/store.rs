@@ -51,7 +51,6 @@
 //! that serves a file ([`Store::clock`]), and of the clock of a database that several processes serve.
 
 mod address;
-mod backup;
 mod batch_counts;
 mod batch_rows;
 mod batches;
@@ -60,6 +59,7 @@ mod candidates;
 mod changes;
 mod checkpoint_object;
 mod checkpoints;
+pub mod checksum;
 mod circuit_breaker;
 mod compression;
 mod database_errors;
@@ -72,13 +72,12 @@ mod file_key;
 mod file_objects;
 mod folder;
 mod gauges;
-pub mod integrity;
+mod integrity;
 mod job_ids;
 mod jobs;
 mod leases;
 mod limits;
 mod list_order;
-mod local;
 mod migrations;
 mod named_files;
 mod new_row;
@@ -87,6 +86,7 @@ mod operations;
 mod overview;
 mod packed;
 mod postgres;
+mod process_state;
 mod reading;
 mod results;
 mod results_to_move;
@@ -96,22 +96,19 @@ mod stored_block;
 mod stored_file;
 mod update_fault;
 mod updates;
-mod verification;
-mod verified;
-mod verified_content;
 mod verify;
 mod workers;
 
 pub use address::shown_address;
-pub use backup::{BackupError, CopySummary};
 pub use batches::{
     BatchDetail, BatchEnding, BatchFilter, BatchJob, BatchOverview, BatchPart, Expansion, NewBatch,
     NewBatchJob, NewExpansion, Portion, RefusedJob, StoredBatch,
 };
 pub use changes::{AllChanges, Changes};
+pub use checksum::IntegrityError;
 pub use disk::DataDisk;
 pub use error::StoreError;
-pub use integrity::IntegrityError;
+pub use integrity::{BackupError, CopySummary};
 pub use jobs::{
     Cancelled, Changed, Deleted, Filter, NewJob, RequestKey, Retried, StoredJob, SubmitOptions,
     Submitted,

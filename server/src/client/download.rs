@@ -10,7 +10,7 @@ use uuid::Uuid;
 
 use crate::client::{Client, ClientError, repeated};
 use crate::export::files::is_plain_name;
-use crate::store::integrity::{self, Checksum};
+use crate::store::checksum::{self, Checksum};
 
 /// Result of a download.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -119,7 +119,7 @@ fn chosen(files: Vec<ResultFile>, names: &[String]) -> Result<Vec<ResultFile>, C
 }
 
 fn is_present(path: &Path, file: &ResultFile) -> bool {
-    integrity::check_file(file, path).is_ok()
+    checksum::check_file(file, path).is_ok()
 }
 
 fn file_error(path: &Path, cause: std::io::Error) -> ClientError {

@@ -6,7 +6,7 @@ use uuid::Uuid;
 use crate::http::app::App;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::objects::{ObjectPart, ObjectsError};
-use crate::store::{Content, IntegrityError, StoreError, integrity};
+use crate::store::{Content, IntegrityError, StoreError, checksum};
 
 /// Largest file that is checked as a whole before the first byte is sent, bytes. The length of every file is checked; the
 /// checksum of a larger one while it is sent, unless it is a file on this machine that was found to be damaged before.
@@ -56,16 +56,16 @@ impl App {
         let (stored, content) = match content {
             Content::Object(part) if is_small => match part.read().await {
                 Ok(bytes) => (Content::Object(part), Content::Inline(bytes)),
-                Err(error) => return self.without_object(id, name, (part, error)).await,
+                Err(error) => return self.without_object(id, name, part, error).await,
             },
             content => (content.clone(), content),
         };
         let check = move || {
             let is_complete = is_small || entry.damaged.is_some();
             let (checked, is_complete) = match &content {
-                Content::Inline(bytes) => (integrity::check_bytes(&entry, bytes), true),
-                Content::File(path) if is_complete => (integrity::check_file(&entry, path), true),
-                Content::File(path) => (integrity::check_file_length(&entry, path), false),
+                Content::Inline(bytes) => (checksum::check_bytes(&entry, bytes), true),
+                Content::File(path) if is_complete => (checksum::check_file(&entry, path), true),
+                Content::File(path) => (checksum::check_file_length(&entry, path), false),
                 Content::Object(_) => (Ok(()), false),
             };
             (entry, content, checked, is_complete)
@@ -94,7 +94,8 @@ impl App {
         &self,
         id: Uuid,
         name: &str,
-        (part, error): (ObjectPart, ObjectsError),
+        part: ObjectPart,
+        error: ObjectsError,
     ) -> Result<Option<VerifiedFile>, ProblemResponse> {
         match self.store.result_file(id, name).await? {
             None => Ok(None),

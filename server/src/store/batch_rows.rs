@@ -8,7 +8,7 @@ use uuid::Uuid;
 use crate::store::StoreError;
 use crate::store::batches::{BatchJob, BatchOverview, Expansion, RefusedJob};
 use crate::store::document::status_and_reason;
-use crate::store::local::Local;
+use crate::store::process_state::ProcessState;
 use crate::store::rows::{StoredRow, outcome, parsed, summary, timestamp};
 
 /// Returns a batch without its jobs.
@@ -31,11 +31,11 @@ pub(in crate::store) fn batch_overview(
 
 /// Returns a job of a batch, without its profile.
 pub(in crate::store) fn batch_job(
-    local: &Local,
+    process: &ProcessState,
     row: &impl StoredRow,
 ) -> Result<BatchJob, StoreError> {
     let id = row.id("job_id")?;
-    let (status, status_reason) = status_and_reason(local, id, row)?;
+    let (status, status_reason) = status_and_reason(process, id, row)?;
     Ok(BatchJob {
         id,
         position: row.integer("position")?.try_into().unwrap_or_default(),

@@ -16,7 +16,7 @@ use solver::record::CycleReport;
 use crate::export::documents::JSON;
 use crate::export::files::{is_plain_name, manifest_entry};
 use crate::store::compression::{compress, decompress};
-use crate::store::{IntegrityError, SnapshotPart, integrity};
+use crate::store::{IntegrityError, SnapshotPart, checksum};
 
 /// Largest length of the content of a block, bytes; it is read as a whole.
 const LIMIT: usize = 4 << 20;
@@ -313,7 +313,7 @@ impl Block {
             return Ok(None);
         };
         let bytes = self.slice(range);
-        integrity::check_bytes(entry, bytes).map_err(|cause| BlockError::Damaged {
+        checksum::check_bytes(entry, bytes).map_err(|cause| BlockError::Damaged {
             what: entry.name.clone(),
             cause,
         })?;

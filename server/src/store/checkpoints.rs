@@ -12,7 +12,7 @@ use uuid::Uuid;
 use crate::objects::ObjectsError;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::checkpoint_object::CheckpointObject;
-use crate::store::{Lease, Store, StoreError, integrity};
+use crate::store::{Lease, Store, StoreError, checksum};
 
 /// Smallest state in an object, bytes: below, a request to a bucket costs more than a row. Arbitrary.
 const SMALLEST: usize = 64 << 10;
@@ -32,10 +32,10 @@ impl Store {
         checkpoint: &EncodedCheckpoint,
     ) -> Result<Option<String>, StoreError> {
         // Objects that replace checkpoints of a copied database would never be removed.
-        if checkpoint.state.len() < SMALLEST || !self.local().removes_objects {
+        if checkpoint.state.len() < SMALLEST || !self.process().removes_objects {
             return Ok(None);
         }
-        let Some(objects) = &self.local().objects else {
+        let Some(objects) = &self.process().objects else {
             return Ok(None);
         };
         let unusable = |error: &StoreError| {
@@ -74,14 +74,18 @@ impl Store {
         else {
             return Ok(None);
         };
-        let objects = self.local().objects.as_ref().ok_or(StoreError::NoObjects)?;
+        let objects = self
+            .process()
+            .objects
+            .as_ref()
+            .ok_or(StoreError::NoObjects)?;
         let read = timeout(LONGEST_READ, objects.get_all(&key)).await;
         let read = read.unwrap_or_else(|_| {
             let cause = format!("no answer within {LONGEST_READ:?}");
             Err(objects.failed(cause))
         });
         match read {
-            Ok(state) => Ok(integrity::checkpoint(lease.job, cycle, &sha256, state)),
+            Ok(state) => Ok(checksum::checkpoint(lease.job, cycle, &sha256, state)),
             Err(error @ ObjectsError::Missing(_)) => {
                 tracing::error!(job = %lease.job, cycle, %error, "a checkpoint is missing");
                 Ok(None)

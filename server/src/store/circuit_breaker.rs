@@ -21,7 +21,7 @@ impl Store {
         objects: &Objects,
         longest: Duration,
     ) -> Result<(), StoreError> {
-        let failed_at = *self.local().objects_failed_at.lock().await;
+        let failed_at = *self.process().objects_failed_at.lock().await;
         if failed_at.is_none_or(|at| at.elapsed() >= PAUSE) {
             let check = Box::pin(self.check_mark(objects));
             return self.within(objects, longest, check).await;
@@ -63,7 +63,7 @@ impl Store {
                 %error,
                 "the store of objects takes no files and checkpoints; the database has them for {PAUSE:?}"
             );
-            *self.local().objects_failed_at.lock().await = Some(Instant::now());
+            *self.process().objects_failed_at.lock().await = Some(Instant::now());
         }
         answer
     }

@@ -6,14 +6,17 @@ use api::job::{Job, Status};
 use uuid::Uuid;
 
 use crate::store::StoreError;
-use crate::store::local::Local;
 use crate::store::packed::unpack;
+use crate::store::process_state::ProcessState;
 use crate::store::rows::{StoredRow, outcome, parsed, status, summary, time, timestamp, unsigned};
 
 /// Returns the document of a selected row.
-pub(in crate::store) fn document(local: &Local, row: &impl StoredRow) -> Result<Job, StoreError> {
+pub(in crate::store) fn document(
+    process: &ProcessState,
+    row: &impl StoredRow,
+) -> Result<Job, StoreError> {
     let id = row.id("id")?;
-    let (status, reason) = status_and_reason(local, id, row)?;
+    let (status, reason) = status_and_reason(process, id, row)?;
     let (spec, plan) = match row.optional_bytes("packed")? {
         Some(packed) => unpack(id, &packed)?,
         None => (
@@ -27,7 +30,7 @@ pub(in crate::store) fn document(local: &Local, row: &impl StoredRow) -> Result<
         status_reason: reason,
         outcome: outcome(row)?,
         priority: unsigned(row, "priority")?,
-        deadline_at: deadline(local, row)?,
+        deadline_at: deadline(process, row)?,
         created_at: timestamp(row.integer("created_at")?),
         started_at: time(row, "started_at")?,
         finished_at: time(row, "finished_at")?,
@@ -42,24 +45,24 @@ pub(in crate::store) fn document(local: &Local, row: &impl StoredRow) -> Result<
 
 /// Returns the status of a selected row and the reason for it: what is stored, unless the job waits for disk space.
 pub(in crate::store) fn status_and_reason(
-    local: &Local,
+    process: &ProcessState,
     id: Uuid,
     row: &impl StoredRow,
 ) -> Result<(Status, Option<String>), StoreError> {
     let (status, stored) = (status(id, row)?, row.optional_text("status_reason")?);
-    Ok((status, local.disk.status_reason(status).or(stored)))
+    Ok((status, process.disk.status_reason(status).or(stored)))
 }
 
 /// Returns the deadline of a selected row by the system's clock, by which it is stored once the job has ended.
 pub(in crate::store) fn deadline(
-    local: &Local,
+    process: &ProcessState,
     row: &impl StoredRow,
 ) -> Result<Option<String>, StoreError> {
     let (at, finished) = (
         row.optional_integer("deadline_at")?,
         row.optional_integer("finished_at")?,
     );
-    let step_ms = finished.map_or_else(|| local.clock.stepped_ms(), |_| 0);
+    let step_ms = finished.map_or_else(|| process.clock.stepped_ms(), |_| 0);
     Ok(at.map(|at| timestamp(at.saturating_add(step_ms))))
 }
 

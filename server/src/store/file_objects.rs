@@ -14,7 +14,7 @@ use tokio::time::timeout;
 
 use crate::objects::{ObjectFile, Objects, ObjectsError, Source};
 use crate::store::file_key;
-use crate::store::local::FILE_WRITES_MB;
+use crate::store::process_state::FILE_WRITES_MB;
 use crate::store::{JobUpdate, Lease, LeaseState, NewContent, NewFile, Store, StoreError};
 
 /// Longest time between the end of the writing of a file and the update that names it: the other files of the update are sent meanwhile. Later it
@@ -79,7 +79,7 @@ impl Store {
     /// # Errors
     /// If it cannot be created.
     pub fn received_file(&self) -> std::io::Result<TempPath> {
-        self.local().folder.received()
+        self.process().folder.received()
     }
 
     /// Writes a file of an attempt to an object; its key.
@@ -129,7 +129,7 @@ impl Store {
     /// Waits for memory for a file, up to a limit.
     async fn memory_of(&self, file: &ObjectFile, most_mb: u32) -> Option<SemaphorePermit<'_>> {
         let megabytes = most_mb.min(megabytes(file.bytes).saturating_add(1));
-        let memory = self.local().file_writes.acquire_many(megabytes);
+        let memory = self.process().file_writes.acquire_many(megabytes);
         memory.await.ok()
     }
 
@@ -175,7 +175,7 @@ impl Store {
     /// The store of objects if it has the files of attempts: services on several machines share no folder. Objects that replace files of a
     /// copied database would never be removed.
     fn objects_of_files(&self) -> Option<&Objects> {
-        let is_used = self.is_shared() && self.local().removes_objects;
-        self.local().objects.as_ref().filter(|_| is_used)
+        let is_used = self.is_shared() && self.process().removes_objects;
+        self.process().objects.as_ref().filter(|_| is_used)
     }
 }

@@ -118,7 +118,7 @@ impl Folder {
     ) -> std::io::Result<usize> {
         let named: HashSet<PathBuf> = named.iter().filter_map(|place| self.path(place)).collect();
         let Some((id, last)) = attempt else {
-            return remove_unnamed(&self.root, (&named, held));
+            return remove_unnamed(&self.root, &named, held);
         };
         // The job's own folder is not removed, even if empty: the next attempt may be about to write into it.
         let mut removed = 0;
@@ -126,7 +126,7 @@ impl Folder {
             let name = entry.file_name();
             let lease = name.to_str().and_then(|name| name.parse::<i64>().ok());
             if lease.is_some_and(|lease| lease <= last) {
-                removed += remove_unnamed(&entry.path(), (&named, held))?;
+                removed += remove_unnamed(&entry.path(), &named, held)?;
             }
         }
         Ok(removed)
@@ -135,7 +135,8 @@ impl Folder {
 
 fn remove_unnamed(
     folder: &Path,
-    (named, held): (&HashSet<PathBuf>, &HashSet<PathBuf>),
+    named: &HashSet<PathBuf>,
+    held: &HashSet<PathBuf>,
 ) -> std::io::Result<usize> {
     let (mut removed, mut is_empty) = (0, true);
     for entry in entries(folder)? {
@@ -143,7 +144,7 @@ fn remove_unnamed(
         if held.contains(&path) {
             is_empty = false;
         } else if entry.file_type()?.is_dir() {
-            removed += remove_unnamed(&path, (named, held))?;
+            removed += remove_unnamed(&path, named, held)?;
             is_empty &= !path.exists();
         } else if named.contains(&path) {
             is_empty = false;

@@ -9,7 +9,7 @@ use api::results::ResultFile;
 
 use crate::objects::{ObjectsError, Source};
 use crate::queue::Transition;
-use crate::store::integrity::check_file_length;
+use crate::store::checksum::check_file_length;
 use crate::store::{
     End, IntegrityError, JobUpdate, Lease, LeaseState, NewContent, Store, StoreError,
 };
@@ -87,7 +87,7 @@ impl Store {
         if self.restart(lease, last.number).await? == LeaseState::Lost {
             return Ok(None);
         }
-        let end = if job.document.attempts < self.local().attempt_limit {
+        let end = if job.document.attempts < self.process().attempt_limit {
             End::without_result(Transition::WorkerLost, cause)
         } else {
             End {

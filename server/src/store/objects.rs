@@ -48,8 +48,8 @@ impl Store {
             }
             (_, Some(given)) => self.note_address_of_objects(given.location()).await?,
         }
-        self.local_mut().objects = objects;
-        self.local_mut().removes_objects = self.removes_objects().await?;
+        self.process_mut().objects = objects;
+        self.process_mut().removes_objects = self.removes_objects().await?;
         Ok(self)
     }
 
@@ -80,7 +80,10 @@ impl Store {
             }
             Err(ObjectsError::Unmarked(address.to_owned()).into())
         };
-        self.local().objects_checked.get_or_try_init(check).await?;
+        self.process()
+            .objects_checked
+            .get_or_try_init(check)
+            .await?;
         Ok(())
     }
 
@@ -90,7 +93,7 @@ impl Store {
     /// # Errors
     /// [`StoreError`] for settings that it refuses.
     pub async fn test_objects(&self) -> Result<(), StoreError> {
-        let Some(objects) = &self.local().objects else {
+        let Some(objects) = &self.process().objects else {
             return Ok(());
         };
         let test = async {
@@ -122,7 +125,7 @@ impl Store {
     /// # Errors
     /// [`StoreError`] if the database or the store of objects fails; the results of other jobs are moved all the same.
     pub async fn move_results(&self) -> (Vec<Uuid>, Result<(), StoreError>) {
-        let Some(objects) = &self.local().objects else {
+        let Some(objects) = &self.process().objects else {
             return (Vec::new(), Ok(()));
         };
         match self.moves_results().await {
@@ -152,7 +155,7 @@ impl Store {
     /// Removes the files of jobs whose results were moved.
     pub async fn remove_moved(&self, jobs: &[Uuid]) {
         for id in jobs {
-            self.local().remove_files(*id).await;
+            self.process().remove_files(*id).await;
         }
     }
 
@@ -178,7 +181,7 @@ impl Store {
         let writes = stored.map(async |stored| {
             let stored = stored?;
             let key = keys.get(&stored.id).ok_or(StoreError::Unwritten)?;
-            self.write_object((objects, &large), stored, key.clone())
+            self.write_object(objects, &large, stored, key.clone())
                 .await
         });
         Ok(writes.buffer_unordered(WRITES).collect().await)
@@ -186,7 +189,7 @@ impl Store {
 
     /// The next jobs whose results are to be moved, in a circle: those that cannot be moved keep no others from it.
     async fn jobs_to_move(&self, most: usize) -> Result<Vec<Uuid>, StoreError> {
-        let mut last = self.local().last_moved.lock().await;
+        let mut last = self.process().last_moved.lock().await;
         let jobs = self.movable_jobs(*last, integer(most)).await?;
         let may_be_more = jobs.len() >= most;
         *last = jobs
@@ -230,7 +233,8 @@ impl Store {
     /// Writes the results of a job to an object; `None` if they are damaged, and then stay.
     async fn write_object(
         &self,
-        (objects, large): (&Objects, &Semaphore),
+        objects: &Objects,
+        large: &Semaphore,
         stored: Stored,
         key: String,
     ) -> Result<Option<Moved>, StoreError> {
@@ -257,7 +261,11 @@ impl Store {
                 self.kept(id, &error).await
             }
             Err(error @ ObjectsError::Damaged { .. }) if self.is_shared() => {
-                if !self.local().has_unseen_files.swap(true, Ordering::Relaxed) {
+                if !self
+                    .process()
+                    .has_unseen_files
+                    .swap(true, Ordering::Relaxed)
+                {
                     tracing::warn!(job = %id, %error, "files of jobs may be in the folder of another service; they stay there");
                 }
                 Ok(None)
@@ -294,7 +302,7 @@ impl Store {
     fn has_folders_of(&self, files: &[ObjectFile]) -> bool {
         let has_folder = |file: &ObjectFile| match &file.source {
             Source::File(path) if self.is_shared() => path.parent().is_some_and(Path::is_dir),
-            Source::File(_) => self.local().folder.exists(),
+            Source::File(_) => self.process().folder.exists(),
             Source::Object(_) | Source::Bytes(_) => true,
         };
         files.iter().all(has_folder)

@@ -14,8 +14,8 @@ use uuid::Uuid;
 use crate::clock::Clock;
 use crate::metrics::Metrics;
 use crate::store::address::is_postgres;
-use crate::store::local::Local;
 use crate::store::postgres::PostgresStore;
+use crate::store::process_state::ProcessState;
 use crate::store::sqlite::SqliteStore;
 use crate::store::{
     AllChanges, BatchDetail, BatchEnding, BatchPart, Changes, DataDisk, Filter, Lease, Limits,
@@ -185,43 +185,43 @@ impl Store {
 
     /// Subscribes to the changes of a job.
     pub fn changes(&self, id: Uuid) -> Changes {
-        Changes::new(id, self.local().changes.subscribe())
+        Changes::new(id, self.process().changes.subscribe())
     }
 
     /// Subscribes to the changes of all jobs.
     pub fn all_changes(&self) -> AllChanges {
-        AllChanges::new(self.local().changes.subscribe())
+        AllChanges::new(self.process().changes.subscribe())
     }
 
     /// Returns when a job may be waiting in the queue.
     pub async fn job_waiting(&self) {
-        self.local().waiting.notified().await;
+        self.process().waiting.notified().await;
     }
 
     /// Returns the folder into which an attempt at a job writes its large results.
     pub fn attempt_folder(&self, lease: impl Into<Lease>) -> PathBuf {
         let lease = lease.into();
-        self.local().folder.of_attempt(lease.job, lease.number)
+        self.process().folder.of_attempt(lease.job, lease.number)
     }
 
     /// Path of the machine's calibration cache.
     pub fn machine_file(&self) -> PathBuf {
-        self.local().machine.clone()
+        self.process().machine.clone()
     }
 
     /// The disk of large results.
     pub fn disk(&self) -> &Arc<DataDisk> {
-        &self.local().disk
+        &self.process().disk
     }
 
     /// The clock by which leases are measured.
     pub fn clock(&self) -> &Clock {
-        &self.local().clock
+        &self.process().clock
     }
 
     /// Counters and histograms for `/metrics`.
     pub fn metrics(&self) -> &Arc<Metrics> {
-        &self.local().metrics
+        &self.process().metrics
     }
 
     /// Returns `true` if several processes may serve the database.
@@ -229,17 +229,17 @@ impl Store {
         matches!(self.0, Engine::Postgres(_))
     }
 
-    pub(in crate::store) fn local(&self) -> &Local {
+    pub(in crate::store) fn process(&self) -> &ProcessState {
         match &self.0 {
-            Engine::Sqlite(store) => &store.local,
-            Engine::Postgres(store) => &store.local,
+            Engine::Sqlite(store) => &store.process,
+            Engine::Postgres(store) => &store.process,
         }
     }
 
-    pub(in crate::store) fn local_mut(&mut self) -> &mut Local {
+    pub(in crate::store) fn process_mut(&mut self) -> &mut ProcessState {
         match &mut self.0 {
-            Engine::Sqlite(store) => &mut store.local,
-            Engine::Postgres(store) => &mut store.local,
+            Engine::Sqlite(store) => &mut store.process,
+            Engine::Postgres(store) => &mut store.process,
         }
     }
 }

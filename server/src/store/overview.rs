@@ -5,16 +5,16 @@ use uuid::Uuid;
 
 use crate::store::StoreError;
 use crate::store::document::{deadline, links, status_and_reason};
-use crate::store::local::Local;
+use crate::store::process_state::ProcessState;
 use crate::store::rows::{StoredRow, outcome, parsed, time, timestamp, unsigned};
 
 /// Returns the short document of a selected row.
 pub(in crate::store) fn overview(
-    local: &Local,
+    process: &ProcessState,
     row: &impl StoredRow,
 ) -> Result<JobOverview, StoreError> {
     let id = row.id("id")?;
-    let (status, status_reason) = status_and_reason(local, id, row)?;
+    let (status, status_reason) = status_and_reason(process, id, row)?;
     let (name, labels) = (row.optional_text("name")?, row.optional_text("labels")?);
     Ok(JobOverview {
         id,
@@ -28,7 +28,7 @@ pub(in crate::store) fn overview(
         status_reason,
         outcome: outcome(row)?,
         priority: unsigned(row, "priority")?,
-        deadline_at: deadline(local, row)?,
+        deadline_at: deadline(process, row)?,
         created_at: timestamp(row.integer("created_at")?),
         started_at: time(row, "started_at")?,
         finished_at: time(row, "finished_at")?,

@@ -50,16 +50,16 @@ use tokio_util::task::AbortOnDropHandle;
 
 use crate::clock::{Clock, Now};
 use crate::groups::Groups;
-use crate::store::local::Local;
 use crate::store::postgres::claimed::Claimed;
 use crate::store::postgres::compared::Compared;
 use crate::store::postgres::write::Writes;
+use crate::store::process_state::ProcessState;
 use crate::store::{ClaimRequest, StoreError};
 
 /// A store in a PostgreSQL database.
 #[derive(Debug)]
 pub(in crate::store) struct PostgresStore {
-    pub(in crate::store) local: Local,
+    pub(in crate::store) process: ProcessState,
     /// For claims and writes, which must not wait for reads.
     writer: PgPool,
     readers: PgPool,
@@ -86,8 +86,8 @@ impl PostgresStore {
 
     /// The present time if a test sets it.
     fn given_now(&self) -> Option<Now> {
-        let is_given = matches!(self.local.clock, Clock::Manual(_));
-        is_given.then(|| self.local.clock.now())
+        let is_given = matches!(self.process.clock, Clock::Manual(_));
+        is_given.then(|| self.process.clock.now())
     }
 }
 

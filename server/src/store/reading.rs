@@ -22,7 +22,7 @@ impl Store {
         }
         let moved = match self.stored_block(id).await? {
             None => Vec::new(),
-            Some(block) => block.events(id, self.local().objects.as_ref()).await?,
+            Some(block) => block.events(id, self.process().objects.as_ref()).await?,
         };
         Ok(events::page(moved, stored, after))
     }
@@ -86,7 +86,7 @@ impl Store {
         }
         match self.stored_block(id).await? {
             None => Ok(None),
-            Some(stored) => stored.file(id, name, self.local().objects.as_ref()).await,
+            Some(stored) => stored.file(id, name, self.process().objects.as_ref()).await,
         }
     }
 
@@ -104,7 +104,7 @@ impl Store {
         match self.stored_block(id).await? {
             None => Ok(None),
             Some(stored) => {
-                let block = stored.decoded(id, self.local().objects.as_ref()).await;
+                let block = stored.decoded(id, self.process().objects.as_ref()).await;
                 block.map(Some)
             }
         }

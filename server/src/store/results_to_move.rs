@@ -7,12 +7,12 @@ use crate::export::documents::JSON;
 use crate::export::files::manifest_entry;
 use crate::objects::Source;
 use crate::store::block::Block;
-use crate::store::local::Local;
 use crate::store::packed::{listed, pack};
+use crate::store::process_state::ProcessState;
 use crate::store::rows::{StoredRow, entry, integer};
 use crate::store::stored_block::{StoredBlock, pack_events, unreadable};
 use crate::store::stored_file::source;
-use crate::store::{StoreError, StoredEvent, integrity};
+use crate::store::{StoreError, StoredEvent, checksum};
 
 /// Results that were written to an object.
 pub(in crate::store) struct Moved {
@@ -87,13 +87,13 @@ impl Stored {
 
 /// A file of a manifest, from its row, and where it is.
 pub(in crate::store) fn file_to_move(
-    local: &Local,
+    process: &ProcessState,
     id: Uuid,
     row: &impl StoredRow,
     object: Option<&str>,
 ) -> Result<StoredFile, StoreError> {
     let entry = entry(row)?;
-    let source = source(local, id, &entry, (row, object))?;
+    let source = source(process, id, &entry, row, object)?;
     Ok(StoredFile { entry, source })
 }
 
@@ -101,7 +101,7 @@ pub(in crate::store) fn file_to_move(
 fn check(id: Uuid, entries: &[u8], content: &[u8]) -> Result<(), StoreError> {
     let block = Block::decode(entries, content).map_err(|cause| unreadable(id, &cause))?;
     for (entry, bytes) in block.all() {
-        integrity::check_bytes(entry, bytes).map_err(|cause| StoreError::DamagedResults {
+        checksum::check_bytes(entry, bytes).map_err(|cause| StoreError::DamagedResults {
             id,
             cause: format!("{}: {cause}", entry.name),
         })?;

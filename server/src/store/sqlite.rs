@@ -41,7 +41,7 @@ use api::job::Status;
 use sqlx::sqlite::SqlitePool;
 use uuid::Uuid;
 
-use crate::store::local::Local;
+use crate::store::process_state::ProcessState;
 use crate::store::sqlite::lock::DatabaseLock;
 use crate::store::sqlite::submissions::{Submission, Submissions, write};
 use crate::store::{NewJob, RequestKey, StoreError, Submitted};
@@ -50,7 +50,7 @@ pub use owner::OWNER_HEARTBEAT;
 /// A store in a file.
 #[derive(Debug)]
 pub(in crate::store) struct SqliteStore {
-    pub(in crate::store) local: Local,
+    pub(in crate::store) process: ProcessState,
     writer: SqlitePool,
     readers: SqlitePool,
     path: PathBuf,
@@ -72,17 +72,17 @@ impl SqliteStore {
         job: &NewJob,
         key: Option<&RequestKey>,
     ) -> Result<Submitted, StoreError> {
-        self.local.disk.check()?;
+        self.process.disk.check()?;
         let submission = Submission {
             job: job.clone(),
             key: key.cloned(),
-            now: self.local.clock.now(),
+            now: self.process.clock.now(),
         };
         let write = |group| write(self.writer.clone(), group);
         let submitted = self.submissions.ask(submission, write).await;
         let submitted = submitted.unwrap_or(Err(StoreError::Unwritten))?;
         if let Submitted::Job(id) = submitted {
-            self.local.concluded(id, Some(Status::Queued));
+            self.process.concluded(id, Some(Status::Queued));
         }
         Ok(submitted)
     }

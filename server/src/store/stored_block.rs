@@ -8,7 +8,7 @@ use uuid::Uuid;
 use crate::objects::{ObjectPart, Objects};
 use crate::store::block::{Block, BlockError};
 use crate::store::compression::{compress, decompress};
-use crate::store::{Content, StoreError, StoredEvent, integrity};
+use crate::store::{Content, StoreError, StoredEvent, checksum};
 
 /// Largest length of all events of a job, bytes.
 const EVENTS_LIMIT: usize = 64 << 20;
@@ -124,7 +124,7 @@ impl StoredBlock {
             id,
             cause: format!("events: {cause}"),
         };
-        integrity::check_bytes(entry, &bytes).map_err(|cause| damaged(cause.to_string()))?;
+        checksum::check_bytes(entry, &bytes).map_err(|cause| damaged(cause.to_string()))?;
         serde_json::from_slice(&decompress(&bytes, EVENTS_LIMIT))
             .map_err(|cause| damaged(cause.to_string()))
     }

@@ -185,7 +185,7 @@ async fn problems_of_access_and_of_the_service_match_the_snapshot() {
         supervisor,
         ..
     } = service.app.clone();
-    service.app = App::new(store, access, (stopping, supervisor), service.app.document);
+    service.app = App::new(store, access, stopping, supervisor, service.app.document);
     let closed = vec![("GET", "/v1/jobs".to_owned(), vec![], String::new())];
     text += &problems(&service, "no id", closed).await;
     let hidden = std::io::Error::other("a secret path");

@@ -101,7 +101,7 @@ fn damage_is_found_wherever_it_is() {
         content[at] ^= 0x10;
         let found = Block::decode(&encoded.entries, &content).expect("entries");
         let sound =
-            |(entry, bytes): (&ResultFile, &[u8])| integrity::check_bytes(entry, bytes).is_ok();
+            |(entry, bytes): (&ResultFile, &[u8])| checksum::check_bytes(entry, bytes).is_ok();
         let is_sound = found.all().all(sound);
         // Some bits of the format do not change what is decompressed.
         assert_eq!(

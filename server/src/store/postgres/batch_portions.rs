@@ -32,7 +32,7 @@ impl PostgresStore {
         }
         transaction.commit().await?;
         for (job, effect) in &effects {
-            self.local.cancelled(*job, *effect);
+            self.process.cancelled(*job, *effect);
         }
         // Jobs that have ended while this transaction waited for their locks are not among them.
         Ok(!effects.is_empty())
@@ -63,8 +63,8 @@ impl PostgresStore {
         transaction.commit().await?;
         let is_left = deleted.rows_affected() == 0 && !jobs.is_empty();
         for job in jobs {
-            self.local.remove_files(job).await;
-            self.local.changed(job);
+            self.process.remove_files(job).await;
+            self.process.changed(job);
         }
         Ok(is_left)
     }

@@ -18,7 +18,7 @@ impl PostgresStore {
         batch: &NewBatch,
         key: Option<&RequestKey>,
     ) -> Result<Submitted, StoreError> {
-        self.local.disk.check()?;
+        self.process.disk.check()?;
         let (mut transaction, now) = self.begin().await?;
         let id = new_id(now.system_ms);
         if !insert_batch(&mut transaction, id, batch, key, now).await?
@@ -33,7 +33,7 @@ impl PostgresStore {
         }
         insert_jobs(&mut transaction, id, &batch.jobs, now).await?;
         transaction.commit().await?;
-        self.local.many_wait();
+        self.process.many_wait();
         Ok(Submitted::Job(id))
     }
 }

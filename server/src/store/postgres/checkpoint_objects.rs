@@ -54,7 +54,7 @@ pub(super) async fn name_object(
 impl PostgresStore {
     pub(in crate::store) async fn note_object(&self, key: &str) -> Result<(), StoreError> {
         // A service that started meanwhile may have noted another store of objects.
-        let address = self.local.objects.as_ref().map(Objects::location);
+        let address = self.process.objects.as_ref().map(Objects::location);
         let noted = sqlx::query(
             "INSERT INTO unnamed_objects (key, noted_at) SELECT $1, fretwear_now() FROM object_store WHERE address = $2",
         )

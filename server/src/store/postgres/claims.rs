@@ -37,13 +37,13 @@ impl PostgresStore {
         &self,
         request: &ClaimRequest,
     ) -> Result<Vec<Claim>, StoreError> {
-        self.local.disk.check()?;
+        self.process.disk.check()?;
         let given = self.given_now();
         let write = |group| write(self.writer.clone(), given, group);
         let claimed = self.claims.ask(*request, write).await;
         let Claimed { claims, reasoned } = claimed.unwrap_or(Err(StoreError::Unwritten))?;
         for id in claims.iter().map(|claim| claim.id).chain(reasoned) {
-            self.local.changed(id);
+            self.process.changed(id);
         }
         Ok(claims)
     }

@@ -20,7 +20,7 @@ impl PostgresStore {
         &self,
         portion: &Portion,
     ) -> Result<bool, StoreError> {
-        self.local.disk.check()?;
+        self.process.disk.check()?;
         let (mut transaction, now) = self.begin().await?;
         let positions = &portion.positions;
         let refused: Option<i64> = sqlx::query_scalar(
@@ -54,7 +54,7 @@ impl PostgresStore {
         .execute(&mut *transaction)
         .await?;
         transaction.commit().await?;
-        self.local.many_wait();
+        self.process.many_wait();
         Ok(true)
     }
 }

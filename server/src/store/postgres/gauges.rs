@@ -37,7 +37,7 @@ impl PostgresStore {
              (SELECT COALESCE(sum(slots), 0)::bigint FROM workers WHERE last_contact_at >= $2 AND NOT is_draining), \
              (SELECT count(failing) FROM workers WHERE last_contact_at >= $2)",
         )
-        .bind(self.local.objects.is_some())
+        .bind(self.process.objects.is_some())
         .bind(present_from(monotonic_ms))
         .fetch_one(&mut *connection)
         .await?;
@@ -49,7 +49,11 @@ impl PostgresStore {
             wal_bytes: 0,
             oldest_progress_s: progress_age_s(progress, now),
             database_bytes,
-            disk_free_bytes: self.local.disk.free_mb().map_or(0, |mb| integer(mb << 20)),
+            disk_free_bytes: self
+                .process
+                .disk
+                .free_mb()
+                .map_or(0, |mb| integer(mb << 20)),
             workers_alive: 0,
             remote_slots,
             workers_failing,
@@ -58,7 +62,7 @@ impl PostgresStore {
     }
 
     pub(in crate::store) async fn ready(&self) -> Result<(), StoreError> {
-        self.local.disk.check()?;
+        self.process.disk.check()?;
         let mut last = self.last_probe.lock().await;
         if last.is_some_and(|at| at.elapsed() < PROBE_INTERVAL) {
             return Ok(());

@@ -7,7 +7,7 @@ use api::job::Status;
 use uuid::Uuid;
 
 use crate::store::postgres::PostgresStore;
-use crate::store::postgres::write::Effect;
+use crate::store::postgres::write::LeaseEffect;
 use crate::store::{End, JobUpdate, Lease, LeaseState, StoreError, Write, WriteKind};
 
 impl PostgresStore {
@@ -17,21 +17,21 @@ impl PostgresStore {
         update: &JobUpdate,
         length: Duration,
     ) -> Result<LeaseState, StoreError> {
-        self.local.disk.check()?;
+        self.process.disk.check()?;
         let write = Write {
             lease,
             update: update.clone(),
             kind: WriteKind::Renew(length),
         };
         let written = self.write(write).await?;
-        let Effect::Held { cancel_requested } = written.effect else {
-            return Ok(self.local.stale_write());
+        let LeaseEffect::Held { cancel_requested } = written.effect else {
+            return Ok(self.process.stale_write());
         };
         if !written.is_repeated {
             if update.checkpoint.is_some() {
-                self.local.metrics.checkpoints.inc();
+                self.process.metrics.checkpoints.inc();
             }
-            self.local.changed(lease.job);
+            self.process.changed(lease.job);
         }
         Ok(LeaseState::Held { cancel_requested })
     }
@@ -117,12 +117,12 @@ impl PostgresStore {
             kind: WriteKind::End(Box::new(end.clone())),
         };
         let written = self.write(write).await?;
-        let Effect::Ended(status) = written.effect else {
-            self.local.stale_write();
+        let LeaseEffect::Ended(status) = written.effect else {
+            self.process.stale_write();
             return Ok(None);
         };
         if !written.is_repeated {
-            self.local.ended_by_worker(lease.job, status);
+            self.process.ended_by_worker(lease.job, status);
         }
         Ok(status)
     }

@@ -22,7 +22,7 @@ impl PostgresStore {
             return self.remove_left_files().await;
         };
         let job = attempt.job;
-        let has_files = self.local.in_folder(move |folder| Ok(folder.has(job)));
+        let has_files = self.process.in_folder(move |folder| Ok(folder.has(job)));
         if !has_files.await.unwrap_or(true) {
             return Ok(());
         }
@@ -35,12 +35,12 @@ impl PostgresStore {
         let named: HashSet<String> = named.into_iter().collect();
         let attempt = Some((attempt.job, attempt.number));
         let remove = move |folder: Folder| folder.remove_unnamed(attempt, &named, &HashSet::new());
-        self.local.remove_unnamed(remove).await;
+        self.process.remove_unnamed(remove).await;
         Ok(())
     }
 
     async fn remove_left_files(&self) -> Result<(), StoreError> {
-        let jobs = match self.local.in_folder(|folder| folder.jobs()).await {
+        let jobs = match self.process.in_folder(|folder| folder.jobs()).await {
             Ok(jobs) => jobs,
             Err(error) => {
                 tracing::warn!(%error, "the folder of results cannot be read");
@@ -61,15 +61,15 @@ impl PostgresStore {
                 folder.remove_unnamed(attempt, &HashSet::new(), &HashSet::new())
             };
             if !is_needed {
-                self.local.remove_unnamed(remove).await;
+                self.process.remove_unnamed(remove).await;
             }
         }
         let kept: HashSet<_> = kept.into_iter().map(|(job, ..)| job).collect();
         for job in jobs.into_iter().filter(|job| !kept.contains(job)) {
-            self.local.remove_files(job).await;
+            self.process.remove_files(job).await;
         }
         let remove = |folder: Folder| folder.remove_received();
-        self.local.remove_unnamed(remove).await;
+        self.process.remove_unnamed(remove).await;
         Ok(())
     }
 }

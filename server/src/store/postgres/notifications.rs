@@ -14,7 +14,7 @@ use uuid::Uuid;
 
 use crate::store::StoreError;
 use crate::store::changes::ANY_JOB;
-use crate::store::local::Notification;
+use crate::store::process_state::Notification;
 
 const CHANNEL: &str = "fretwear_changes";
 /// Interval in which changes are collected into notifications.
@@ -29,7 +29,7 @@ const PAUSE: Duration = Duration::from_secs(1);
 /// Sends the changes of this process until the store is closed.
 pub(super) async fn notify(
     pool: PgPool,
-    process: Uuid,
+    sender: Uuid,
     mut notifications: UnboundedReceiver<Notification>,
 ) {
     while let Some(first) = notifications.recv().await {
@@ -42,7 +42,7 @@ pub(super) async fn notify(
         for some in changes.chunks(MOST) {
             let notified = sqlx::query("SELECT pg_notify($1, $2)")
                 .bind(CHANNEL)
-                .bind(format!("{process} {}", some.join(" ")))
+                .bind(format!("{sender} {}", some.join(" ")))
                 .execute(&pool)
                 .await;
             if let Err(error) = notified {
@@ -55,12 +55,12 @@ pub(super) async fn notify(
 /// Receives the changes of other processes until the store is closed.
 pub(super) async fn hear(
     pool: PgPool,
-    process: Uuid,
+    sender: Uuid,
     changes: broadcast::Sender<Uuid>,
     waiting: Arc<Notify>,
 ) {
     loop {
-        if let Err(error) = listen(&pool, process, &changes, &waiting).await {
+        if let Err(error) = listen(&pool, sender, &changes, &waiting).await {
             tracing::warn!(%error, "lost the LISTEN connection; polling");
         }
         sleep(PAUSE).await;
@@ -69,7 +69,7 @@ pub(super) async fn hear(
 
 async fn listen(
     pool: &PgPool,
-    process: Uuid,
+    sender: Uuid,
     changes: &broadcast::Sender<Uuid>,
     waiting: &Notify,
 ) -> Result<(), StoreError> {
@@ -85,7 +85,7 @@ async fn listen(
         let Some((from, text)) = notification.payload().split_once(' ') else {
             continue;
         };
-        if from == process.to_string() {
+        if from == sender.to_string() {
             continue;
         }
         for change in text.split(' ') {

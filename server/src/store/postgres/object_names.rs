@@ -45,7 +45,7 @@ impl PostgresStore {
         let (noted, mut unnamed): (Vec<&Moved>, Vec<_>) = moved
             .iter()
             .partition(|results| noted.contains(&results.key));
-        let address = self.local.objects.as_ref().map(Objects::location);
+        let address = self.process.objects.as_ref().map(Objects::location);
         let named = name(&mut transaction, &noted, address).await?;
         // Another process has taken them for ones that are left, and they may have been written after their removal; or the results have changed.
         unnamed.extend(noted.iter().filter(|results| !named.contains(&results.id)));

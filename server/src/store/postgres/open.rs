@@ -15,11 +15,11 @@ use crate::clock::Clock;
 use crate::export::files::parent;
 use crate::groups::Groups;
 use crate::store::leases::ENDED_BY_RESTORE;
-use crate::store::local::Local;
 use crate::store::postgres::PostgresStore;
 use crate::store::postgres::durability;
 use crate::store::postgres::migrations::{migrator, newest_version};
 use crate::store::postgres::notifications::{hear, notify};
+use crate::store::process_state::ProcessState;
 use crate::store::{BackupError, Lease, Limits, StoreError};
 
 /// Number of connections for claims and writes, among them one that sends notifications.
@@ -81,17 +81,17 @@ impl PostgresStore {
             Clock::Manual(_) => clock,
             Clock::System | Clock::Database => Clock::Database,
         };
-        let mut local = Local::prepare(files, Some(&machine), limits, clock);
+        let mut process = ProcessState::prepare(files, Some(&machine), limits, clock);
         let (others, notifications) = mpsc::unbounded_channel();
-        local.others = Some(others);
-        let process = Uuid::now_v7();
-        let (changes, waiting) = (local.changes.clone(), local.waiting.clone());
+        process.others = Some(others);
+        let sender = Uuid::now_v7();
+        let (changes, waiting) = (process.changes.clone(), process.waiting.clone());
         let tasks = [
-            tokio::spawn(notify(pool.clone(), process, notifications)),
-            tokio::spawn(hear(pool.clone(), process, changes, waiting)),
+            tokio::spawn(notify(pool.clone(), sender, notifications)),
+            tokio::spawn(hear(pool.clone(), sender, changes, waiting)),
         ];
         let store = Self {
-            local,
+            process,
             writer: pool,
             readers,
             claims: Groups::default(),

@@ -45,7 +45,7 @@ impl PostgresStore {
         for (id, fruitless, cancel_requested, ended_at) in lost {
             let end = leases::reclaim(ended_at, REASON);
             let fruitless = fruitless.try_into().unwrap_or_default();
-            let limit = self.local.attempt_limit;
+            let limit = self.process.attempt_limit;
             let job = EndingJob::running(id, fruitless, limit, cancel_requested);
             if job.after(end.transition).is_some_and(Status::is_terminal) {
                 // Nothing is solved under the new lease, which this process holds.
@@ -66,10 +66,10 @@ impl PostgresStore {
         }
         transaction.commit().await?;
         for (id, status) in &queued {
-            self.local.ended_by_worker(*id, *status);
+            self.process.ended_by_worker(*id, *status);
         }
         for _ in 0..queued.len() + ending.len() {
-            self.local.metrics.reclaimed.inc();
+            self.process.metrics.reclaimed.inc();
         }
         Ok(Reclaimed {
             queued: queued.len(),

@@ -67,7 +67,7 @@ impl PostgresStore {
         }
         let file = |id, row: &PgRow| {
             let object = row.optional_text("object")?;
-            file_to_move(&self.local, id, row, object.as_deref())
+            file_to_move(&self.process, id, row, object.as_deref())
         };
         let files = rows_of
             .into_iter()

@@ -50,7 +50,7 @@ impl PostgresStore {
             .unwrap_or(last);
         let mut changes = Vec::with_capacity(rows.len() + deleted.len());
         for row in &rows {
-            let job = Changed::Job(Box::new(overview(&self.local, row)?));
+            let job = Changed::Job(Box::new(overview(&self.process, row)?));
             changes.push((row.integer("revision")?, job));
         }
         for row in &deleted {

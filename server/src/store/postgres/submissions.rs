@@ -16,7 +16,7 @@ impl PostgresStore {
         job: &NewJob,
         key: Option<&RequestKey>,
     ) -> Result<Submitted, StoreError> {
-        self.local.disk.check()?;
+        self.process.disk.check()?;
         let (mut transaction, now) = self.begin().await?;
         let id = new_id(now.system_ms);
         if let Some(key) = key
@@ -27,7 +27,7 @@ impl PostgresStore {
         let new = [(job, NewRow::of(job, id, now)?)];
         insert(&mut transaction, &new, None, now).await?;
         transaction.commit().await?;
-        self.local.concluded(id, Some(Status::Queued));
+        self.process.concluded(id, Some(Status::Queued));
         Ok(Submitted::Job(id))
     }
 }

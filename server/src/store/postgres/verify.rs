@@ -7,9 +7,9 @@ use sqlx::PgConnection;
 
 use crate::objects::Objects;
 use crate::store::folder::Folder;
+use crate::store::integrity::check::Verification;
 use crate::store::postgres::objects::identity;
 use crate::store::postgres::open::open_to_verify;
-use crate::store::verification::Verification;
 use crate::store::{BackupError, CopySummary, StoreError};
 
 /// Verifies the database at `url`, whose large results may be in the folder `files`.results.
@@ -21,9 +21,9 @@ pub(in crate::store) async fn verify(
     let database = open_to_verify(url).await?;
     let folder = Folder::beside(files);
     let verification = Verification::of(&database, &folder, objects).await?;
-    let verified = verification.run().await;
+    let report = verification.run().await;
     database.close().await;
-    verified
+    report
 }
 
 /// Returns `true` if the objects of a database are those of its original.

@@ -16,14 +16,14 @@ pub(super) type Waiting = Pending<Arc<Write>, Option<Written>>;
 /// Effect of a write, or of an earlier one of the same number.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Written {
-    pub(super) effect: Effect,
+    pub(super) effect: LeaseEffect,
     /// True if it was not this write but an earlier one of the same number.
     pub(super) is_repeated: bool,
 }
 
 /// State of the job or of the lease after a write.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Effect {
+pub(super) enum LeaseEffect {
     /// The job is held.
     Held {
         /// True if its end was requested.
@@ -37,9 +37,9 @@ pub(super) enum Effect {
 
 impl Written {
     /// A write without effect.
-    pub(super) const LOST: Self = Self::repeated(Effect::Lost);
+    pub(super) const LOST: Self = Self::repeated(LeaseEffect::Lost);
 
-    pub(super) const fn repeated(effect: Effect) -> Self {
+    pub(super) const fn repeated(effect: LeaseEffect) -> Self {
         Self {
             effect,
             is_repeated: true,

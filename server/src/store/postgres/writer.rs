@@ -6,12 +6,12 @@ use uuid::Uuid;
 
 use crate::clock::Now;
 use crate::store::ending::EndingJob;
-use crate::store::local::log_lost_writes;
 use crate::store::postgres::begin;
 use crate::store::postgres::blocks::{NewBlock, insert_blocks};
 use crate::store::postgres::transitions::{JobEnd, end_jobs};
 use crate::store::postgres::updates::{Renewal, insert_results, renew};
-use crate::store::postgres::write::{Effect, Written};
+use crate::store::postgres::write::{LeaseEffect, Written};
+use crate::store::process_state::log_lost_writes;
 use crate::store::{StoreError, Write, WriteKind};
 
 /// Policy for rows that another transaction has locked.
@@ -80,7 +80,7 @@ impl Writer {
         connection: &mut PgConnection,
         held: &[Held<'_>],
         now: Now,
-    ) -> Result<Vec<Effect>, StoreError> {
+    ) -> Result<Vec<LeaseEffect>, StoreError> {
         let updates: Vec<_> = held
             .iter()
             .map(|held| (held.write.lease, &held.write.update))
@@ -103,7 +103,7 @@ impl Writer {
                         ends_at: now.end_of(*length),
                         last_event: held.last_event,
                     });
-                    Effect::Held { cancel_requested }
+                    LeaseEffect::Held { cancel_requested }
                 }
                 WriteKind::End(end) => {
                     let job = EndingJob::running(
@@ -120,7 +120,7 @@ impl Writer {
                         succeeded: status == Some(Status::Succeeded),
                     }));
                     ends.extend(end);
-                    Effect::Ended(status)
+                    LeaseEffect::Ended(status)
                 }
             });
         }
@@ -173,7 +173,7 @@ async fn lock<'a>(
 async fn effects_before(
     connection: &mut PgConnection,
     writes: &[&Write],
-) -> Result<Vec<(usize, Effect)>, StoreError> {
+) -> Result<Vec<(usize, LeaseEffect)>, StoreError> {
     let (jobs, leases, numbers) = keys(writes);
     let rows: Vec<(i64, String, bool, i64)> = sqlx::query_as(
         "SELECT n, status, cancel_requested, last_write FROM jobs \
@@ -196,9 +196,9 @@ async fn effects_before(
         }
         let effect = match write.kind {
             WriteKind::Renew(_) if is_running && number <= last => {
-                Effect::Held { cancel_requested }
+                LeaseEffect::Held { cancel_requested }
             }
-            WriteKind::End(_) if !is_running && number == last => Effect::Ended(Some(status)),
+            WriteKind::End(_) if !is_running && number == last => LeaseEffect::Ended(Some(status)),
             WriteKind::Renew(_) | WriteKind::End(_) => return None,
         };
         Some((index, effect))

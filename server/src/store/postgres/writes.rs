@@ -20,7 +20,7 @@ impl PostgresStore {
         let writer = Writer {
             pool: self.writer.clone(),
             given: self.given_now(),
-            attempt_limit: self.local.attempt_limit,
+            attempt_limit: self.process.attempt_limit,
         };
         let write = Arc::new(write);
         if write.update.is_small() {

@@ -83,7 +83,7 @@ impl EngineStore {
         .bind(i64::from(part.limit))
         .fetch_all(&self.readers)
         .await?;
-        let jobs = rows.iter().map(|row| batch_job(&self.local, row));
+        let jobs = rows.iter().map(|row| batch_job(&self.process, row));
         jobs.collect()
     }
 
@@ -139,7 +139,7 @@ impl EngineStore {
 
     /// Counts the jobs of a batch by status; of a large one, every now and then.
     async fn batch_counts(&self, id: Uuid) -> Result<BTreeMap<String, u64>, StoreError> {
-        if let Some(kept) = self.local.batch_counts.kept(id) {
+        if let Some(kept) = self.process.batch_counts.kept(id) {
             return Ok(kept);
         }
         let began = Instant::now();
@@ -153,7 +153,7 @@ impl EngineStore {
         let mut counts = no_jobs();
         let count = |(status, count): (String, i64)| (status, count.try_into().unwrap_or_default());
         counts.extend(rows.into_iter().map(count));
-        self.local.batch_counts.keep(id, &counts, began);
+        self.process.batch_counts.keep(id, &counts, began);
         Ok(counts)
     }
 }

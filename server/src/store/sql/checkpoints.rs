@@ -9,7 +9,7 @@ use crate::clock::Now;
 use crate::solve::checkpoint::EncodedCheckpoint;
 use crate::store::checkpoint_object::CheckpointObject;
 use crate::store::rows::integer;
-use crate::store::{ClaimedCheckpoint, Lease, StoreError, integrity};
+use crate::store::{ClaimedCheckpoint, Lease, StoreError, checksum};
 
 /// Returns the checkpoint of a job and deletes the results after its cycle. A checkpoint whose checksum differs is
 /// deleted with all results.
@@ -28,7 +28,7 @@ pub(in super::super) async fn restore(
         if is_object {
             return Some(ClaimedCheckpoint::Stored { cycle });
         }
-        integrity::checkpoint(id, cycle, &sha256, state).map(ClaimedCheckpoint::Given)
+        checksum::checkpoint(id, cycle, &sha256, state).map(ClaimedCheckpoint::Given)
     });
     let cycle = valid.as_ref().map(ClaimedCheckpoint::cycle);
     delete_results_after(connection, id, cycle).await?;

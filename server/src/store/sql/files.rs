@@ -53,7 +53,7 @@ impl EngineStore {
             return Ok(None);
         };
         let object = row.optional_text("object")?;
-        file(&self.local, id, &row, object.as_deref()).map(Some)
+        file(&self.process, id, &row, object.as_deref()).map(Some)
     }
 
     pub(in crate::store) async fn files_outside(
@@ -71,7 +71,7 @@ impl EngineStore {
         let mut files = Vec::with_capacity(rows.len());
         for row in &rows {
             let (entry, object) = (entry(row)?, row.optional_text("object")?);
-            let source = source(&self.local, id, &entry, (row, object.as_deref()))?;
+            let source = source(&self.process, id, &entry, row, object.as_deref())?;
             files.extend(source.map(|source| (entry, source)));
         }
         Ok(files)

@@ -51,7 +51,7 @@ impl EngineStore {
         lease: impl Into<Lease>,
         number: i64,
     ) -> Result<LeaseState, StoreError> {
-        self.local.disk.check()?;
+        self.process.disk.check()?;
         let lease = lease.into();
         let (mut transaction, _) = self.begin().await?;
         let statement = format!(
@@ -67,13 +67,13 @@ impl EngineStore {
             .await?;
         let Some((event, cancel_requested, attempt)) = restarted else {
             let held = held(&mut transaction, lease).await?;
-            return Ok(self.local.written_before(lease, number, held));
+            return Ok(self.process.written_before(lease, number, held));
         };
         let attempt = attempt.try_into().unwrap_or_default();
         delete_results_after(&mut transaction, lease.job, None).await?;
         insert_attempt_event(&mut transaction, lease.job, event, attempt, 0).await?;
         transaction.commit().await?;
-        self.local.changed(lease.job);
+        self.process.changed(lease.job);
         Ok(LeaseState::Held { cancel_requested })
     }
 
@@ -89,7 +89,7 @@ impl EngineStore {
             .fetch_optional(self.priority_readers())
             .await?;
         let fruitless = fruitless.unwrap_or_default().try_into().unwrap_or_default();
-        let limit = self.local.attempt_limit;
+        let limit = self.process.attempt_limit;
         let job = EndingJob::running(lease.job, fruitless, limit, cancel_requested);
         Ok(job.after(transition).is_some_and(Status::is_terminal))
     }

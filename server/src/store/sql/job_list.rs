@@ -25,7 +25,7 @@ impl EngineStore {
         let rows = query.build().fetch_all(&self.readers).await?;
         let listed = |row: &_| {
             Ok(Listed {
-                job: document(&self.local, row)?,
+                job: document(&self.process, row)?,
                 place: place(row, filter.order.key)?,
             })
         };
@@ -40,7 +40,7 @@ impl EngineStore {
         let rows = query.build().fetch_all(&self.readers).await?;
         let listed = |row: &_| {
             Ok(Listed {
-                job: overview(&self.local, row)?,
+                job: overview(&self.process, row)?,
                 place: place(row, filter.order.key)?,
             })
         };

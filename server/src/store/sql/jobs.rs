@@ -17,9 +17,9 @@ impl EngineStore {
         let Some(row) = query.build().fetch_optional(&self.readers).await? else {
             return Ok(None);
         };
-        let document = document(&self.local, &row)?;
+        let document = document(&self.process, &row)?;
         Ok(Some(StoredJob {
-            waits_for_disk: self.local.disk.status_reason(document.status).is_some(),
+            waits_for_disk: self.process.disk.status_reason(document.status).is_some(),
             document,
             version: row.integer("version")?,
             last_event: row.integer("last_event")?,
@@ -42,17 +42,17 @@ impl EngineStore {
             Ok(effect)
         };
         let effect = self.with_reserve(write).await?;
-        self.local.cancelled(id, effect);
+        self.process.cancelled(id, effect);
         Ok(effect)
     }
 
     pub(in crate::store) async fn retry(&self, id: Uuid) -> Result<Option<Retried>, StoreError> {
-        self.local.disk.check()?;
+        self.process.disk.check()?;
         let (mut transaction, now) = self.begin().await?;
         let effect = retry(&mut transaction, id, now).await?;
         transaction.commit().await?;
         if effect == Some(Retried::Queued) {
-            self.local.concluded(id, Some(Status::Queued));
+            self.process.concluded(id, Some(Status::Queued));
         }
         Ok(effect)
     }
@@ -61,7 +61,7 @@ impl EngineStore {
         &self,
         filter: &Filter,
     ) -> Result<(u64, Option<ListPlace>), StoreError> {
-        self.local.disk.check()?;
+        self.process.disk.check()?;
         let ids = self.ids(filter).await?;
         let (mut transaction, now) = self.begin().await?;
         let mut retried = Vec::with_capacity(ids.len());
@@ -73,9 +73,9 @@ impl EngineStore {
         }
         transaction.commit().await?;
         for id in &retried {
-            self.local.changed(*id);
+            self.process.changed(*id);
         }
-        self.local.many_wait();
+        self.process.many_wait();
         let count = retried.len().try_into().unwrap_or(u64::MAX);
         Ok((count, filter.next_page(&ids)))
     }
@@ -83,9 +83,9 @@ impl EngineStore {
     pub(in crate::store) async fn delete(&self, id: Uuid) -> Result<Deleted, StoreError> {
         let effect = self.with_reserve(|| self.delete_rows(id)).await?;
         if effect == Deleted::Done {
-            self.local.remove_files(id).await;
+            self.process.remove_files(id).await;
         }
-        self.local.changed(id);
+        self.process.changed(id);
         Ok(effect)
     }
 

@@ -38,7 +38,7 @@ impl EngineStore {
         }
         transaction.commit().await?;
         for id in &late {
-            self.local.concluded(*id, Some(Status::Failed));
+            self.process.concluded(*id, Some(Status::Failed));
         }
         Ok(late.len())
     }

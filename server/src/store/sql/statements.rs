@@ -8,6 +8,7 @@ mod events;
 pub(super) mod expansion_rows;
 mod files;
 pub(super) mod held_leases;
+mod integrity;
 mod job_list;
 pub(super) mod job_rows;
 mod jobs;
@@ -16,7 +17,6 @@ mod object_store;
 mod results;
 pub(super) mod selects;
 pub(super) mod stored_blocks;
-mod verified;
 mod worker_tokens;
 mod workers;
 

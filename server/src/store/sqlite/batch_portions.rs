@@ -29,9 +29,9 @@ impl SqliteStore {
             transaction.commit().await?;
             Ok(effects)
         };
-        let effects = self.local.disk.with_reserve(write).await?;
+        let effects = self.process.disk.with_reserve(write).await?;
         for (job, effect) in &effects {
-            self.local.cancelled(*job, *effect);
+            self.process.cancelled(*job, *effect);
         }
         Ok(!effects.is_empty())
     }
@@ -57,13 +57,13 @@ impl SqliteStore {
             transaction.commit().await?;
             Ok(Some(jobs))
         };
-        let Some(jobs) = self.local.disk.with_reserve(write).await? else {
+        let Some(jobs) = self.process.disk.with_reserve(write).await? else {
             return Ok(false);
         };
         let is_left = integer(jobs.len()) >= JOBS_AT_ONCE;
         for job in jobs.into_iter().map(Uuid::from) {
-            self.local.remove_files(job).await;
-            self.local.changed(job);
+            self.process.remove_files(job).await;
+            self.process.changed(job);
         }
         Ok(is_left)
     }

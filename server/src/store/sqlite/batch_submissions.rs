@@ -18,7 +18,7 @@ impl SqliteStore {
         batch: &NewBatch,
         key: Option<&RequestKey>,
     ) -> Result<Submitted, StoreError> {
-        self.local.disk.check()?;
+        self.process.disk.check()?;
         let (mut transaction, now) = self.begin().await?;
         if let Some(key) = key
             && let Some(earlier) = submitted(&mut *transaction, key).await?
@@ -27,7 +27,7 @@ impl SqliteStore {
         }
         let id = insert_batch(&mut transaction, batch, key, now).await?;
         transaction.commit().await?;
-        self.local.many_wait();
+        self.process.many_wait();
         Ok(Submitted::Job(id))
     }
 }

@@ -61,7 +61,7 @@ pub(super) async fn name_object(
 
 impl SqliteStore {
     pub(in crate::store) async fn note_object(&self, key: &str) -> Result<(), StoreError> {
-        self.local.disk.check()?;
+        self.process.disk.check()?;
         sqlx::query("INSERT INTO unnamed_objects (key, noted_at) VALUES (?, ?)")
             .bind(key)
             .bind(monotonic_ms())

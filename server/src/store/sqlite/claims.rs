@@ -23,10 +23,10 @@ impl SqliteStore {
         &self,
         request: &ClaimRequest,
     ) -> Result<Vec<Claim>, StoreError> {
-        self.local.disk.check()?;
+        self.process.disk.check()?;
         let (mut transaction, now) = self.begin().await?;
         let expires_at = now.end_of(request.lease);
-        let known = claimed_before(&mut transaction, request, (now, expires_at)).await?;
+        let known = claimed_before(&mut transaction, request, now, expires_at).await?;
         if !known.is_empty() {
             transaction.commit().await?;
             return Ok(known);
@@ -52,13 +52,21 @@ impl SqliteStore {
         }
         let mut claims = Vec::with_capacity(admission.admitted.len());
         for index in admission.admitted {
-            let times = (now, expires_at);
-            claims.push(claim(&mut transaction, candidates[index].id, request, times).await?);
+            claims.push(
+                claim(
+                    &mut transaction,
+                    candidates[index].id,
+                    request,
+                    now,
+                    expires_at,
+                )
+                .await?,
+            );
         }
         transaction.commit().await?;
         changed.extend(claims.iter().map(|claim| claim.id));
         for id in changed {
-            self.local.changed(id);
+            self.process.changed(id);
         }
         Ok(claims)
     }
@@ -113,7 +121,8 @@ async fn set_reason(
 async fn claimed_before(
     transaction: &mut Transaction<'_, Sqlite>,
     request: &ClaimRequest,
-    (now, expires_at): (Now, i64),
+    now: Now,
+    expires_at: i64,
 ) -> Result<Vec<Claim>, StoreError> {
     let rows = sqlx::query(
         "UPDATE jobs INDEXED BY jobs_by_claim SET lease_expires_at = ? \
@@ -139,7 +148,8 @@ async fn claim(
     transaction: &mut Transaction<'_, Sqlite>,
     id: Uuid,
     request: &ClaimRequest,
-    (now, expires_at): (Now, i64),
+    now: Now,
+    expires_at: i64,
 ) -> Result<Claim, StoreError> {
     let row = sqlx::query(
         "UPDATE jobs SET status = 'running', lease = lease + ?, lease_expires_at = ?, last_write = 0, worker = ?, claim_number = ?, \

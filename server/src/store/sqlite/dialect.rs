@@ -83,12 +83,12 @@ impl EngineStore {
     /// Begins a transaction that writes, at a time.
     pub(super) async fn begin(&self) -> Result<(Transaction<'static, Engine>, Now), StoreError> {
         let transaction = self.writer.begin_with(BEGIN).await?;
-        Ok((transaction, self.local.clock.now()))
+        Ok((transaction, self.process.clock.now()))
     }
 
     /// A connection that reads, and the present time.
     pub(super) async fn read(&self) -> Result<(PoolConnection<Engine>, Now), StoreError> {
-        Ok((self.readers.acquire().await?, self.local.clock.now()))
+        Ok((self.readers.acquire().await?, self.process.clock.now()))
     }
 
     /// Connections for reads of workers: those of users, because reads of a file wait for no writes.
@@ -106,7 +106,7 @@ impl EngineStore {
         &self,
         write: impl Fn() -> F,
     ) -> Result<T, StoreError> {
-        self.local.disk.with_reserve(write).await
+        self.process.disk.with_reserve(write).await
     }
 
     #[expect(
@@ -114,6 +114,6 @@ impl EngineStore {
         reason = "other engines ask their database for the time"
     )]
     pub(in crate::store) async fn present_ms(&self) -> Result<i64, StoreError> {
-        Ok(self.local.clock.now().system_ms)
+        Ok(self.process.clock.now().system_ms)
     }
 }

@@ -15,7 +15,7 @@ impl SqliteStore {
         &self,
         portion: &Portion,
     ) -> Result<bool, StoreError> {
-        self.local.disk.check()?;
+        self.process.disk.check()?;
         let (mut transaction, now) = self.begin().await?;
         let positions = &portion.positions;
         let refused: Option<i64> = sqlx::query_scalar(
@@ -44,7 +44,7 @@ impl SqliteStore {
             .await?;
         }
         transaction.commit().await?;
-        self.local.many_wait();
+        self.process.many_wait();
         Ok(true)
     }
 }

@@ -36,7 +36,7 @@ impl SqliteStore {
     }
 
     pub(in crate::store) async fn gauges(&self) -> Result<Gauges, StoreError> {
-        let now = self.local.clock.now().system_ms;
+        let now = self.process.clock.now().system_ms;
         let rows: Vec<StatusRow> = sqlx::query_as(
             "SELECT status, jobs, (SELECT min(created_at) FROM jobs WHERE jobs.status = job_counts.status) FROM job_counts",
         )
@@ -60,13 +60,13 @@ impl SqliteStore {
         let results_to_move: i64 = sqlx::query_scalar(
             "SELECT count(*) FROM result_blocks WHERE is_movable = 1 AND object IS NULL AND ?",
         )
-        .bind(self.local.objects.is_some())
+        .bind(self.process.objects.is_some())
         .fetch_one(&self.readers)
         .await?;
         let (remote_slots, workers_failing) = sqlx::query_as(
             "SELECT COALESCE(sum(slots) FILTER (WHERE NOT is_draining), 0), count(failing) FROM workers WHERE last_contact_at >= ?",
         )
-        .bind(present_from(self.local.clock.now().monotonic_ms))
+        .bind(present_from(self.process.clock.now().monotonic_ms))
         .fetch_one(&self.readers)
         .await?;
         Ok(Gauges {
@@ -78,7 +78,7 @@ impl SqliteStore {
             oldest_progress_s: progress_age_s(progress, now),
             database_bytes: database.map_or(0, |file| integer(file.len())),
             disk_free_bytes: self
-                .local
+                .process
                 .disk
                 .usable_mb()
                 .map_or(0, |mb| integer(mb << 20)),
@@ -90,13 +90,13 @@ impl SqliteStore {
     }
 
     pub(in crate::store) async fn ready(&self) -> Result<(), StoreError> {
-        self.local.disk.check()?;
+        self.process.disk.check()?;
         let mut last = self.last_probe.lock().await;
         if last.is_some_and(|at| at.elapsed() < PROBE_INTERVAL) {
             return Ok(());
         }
         sqlx::query("INSERT OR REPLACE INTO probes (name, written_at) VALUES ('ready', ?)")
-            .bind(self.local.clock.now().system_ms)
+            .bind(self.process.clock.now().system_ms)
             .execute(&self.writer)
             .await?;
         *last = Some(Instant::now());

@@ -12,7 +12,7 @@ use uuid::Uuid;
 use uuid::fmt::Hyphenated;
 
 use crate::store::ending::EndingJob;
-use crate::store::local::log_lost_writes;
+use crate::store::process_state::log_lost_writes;
 use crate::store::rows::integer;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::blocks::insert_block;
@@ -30,7 +30,7 @@ impl SqliteStore {
         update: &JobUpdate,
         length: Duration,
     ) -> Result<LeaseState, StoreError> {
-        self.local.disk.check()?;
+        self.process.disk.check()?;
         let (mut transaction, now) = self.begin().await?;
         let events = integer(update.events.len());
         let held: Option<(i64, bool)> = sqlx::query_as(
@@ -50,19 +50,19 @@ impl SqliteStore {
         let Some((last_event, cancel_requested)) = held else {
             // A repeated write, or the lease was lost, as after a gap.
             let held = held_leases::held(&mut transaction, lease).await?;
-            return Ok(self.local.written_before(lease, update.number, held));
+            return Ok(self.process.written_before(lease, update.number, held));
         };
         write_results(&mut transaction, lease, update).await?;
         if let Some(checkpoint) = &update.checkpoint {
             let object = update.checkpoint_object.as_deref();
             checkpoints::write(&mut transaction, lease, checkpoint, object, now).await?;
-            self.local.metrics.checkpoints.inc();
+            self.process.metrics.checkpoints.inc();
         }
         for (seq, (name, data)) in (last_event - events + 1..).zip(&update.events) {
             insert_event(&mut transaction, lease.job, seq, name.as_str(), data).await?;
         }
         transaction.commit().await?;
-        self.local.changed(lease.job);
+        self.process.changed(lease.job);
         Ok(LeaseState::Held { cancel_requested })
     }
 
@@ -103,7 +103,7 @@ impl SqliteStore {
         .bind(&token)
         .fetch_all(&self.readers)
         .await?;
-        let renewed_until = self.local.clock.end_of(length / 3 * 2);
+        let renewed_until = self.process.clock.end_of(length / 3 * 2);
         let is_due = |(.., expires_at): &(i64, bool, i64)| *expires_at < renewed_until;
         if held.iter().any(is_due) {
             let write = async || {
@@ -113,7 +113,7 @@ impl SqliteStore {
                      AND +status = 'running' AND lease_expires_at < ?3 \
                      AND (?4 IS NULL OR lease_token = ?4 OR lease_token IS NULL AND is_remote)",
                 )
-                .bind(self.local.clock.end_of(length))
+                .bind(self.process.clock.end_of(length))
                 .bind(&given)
                 .bind(renewed_until)
                 .bind(&token)
@@ -121,7 +121,7 @@ impl SqliteStore {
                 .await?;
                 Ok(())
             };
-            self.local.disk.with_reserve(write).await?;
+            self.process.disk.with_reserve(write).await?;
         }
         let mut states = vec![LeaseState::Lost; leases.len()];
         for (index, cancel_requested, _) in held {
@@ -140,7 +140,7 @@ impl SqliteStore {
         end: &End,
     ) -> Result<Option<Status>, StoreError> {
         let write = || self.end_in_transaction(lease, update, end);
-        self.local.disk.with_reserve(write).await
+        self.process.disk.with_reserve(write).await
     }
 
     async fn end_in_transaction(
@@ -168,7 +168,7 @@ impl SqliteStore {
         let job = EndingJob::running(
             lease.job,
             fruitless,
-            self.local.attempt_limit,
+            self.process.attempt_limit,
             cancel_requested,
         );
         let progress = serde_json::to_string(&update.progress)?;
@@ -178,7 +178,7 @@ impl SqliteStore {
             insert_block(&mut transaction, lease.job, block, succeeded).await?;
         }
         transaction.commit().await?;
-        self.local.ended_by_worker(lease.job, status);
+        self.process.ended_by_worker(lease.job, status);
         Ok(status)
     }
 
@@ -203,7 +203,7 @@ impl SqliteStore {
             Some((Status::Running, last)) if number > last => log_lost_writes(lease, number, last),
             _ => {}
         }
-        self.local.stale_write();
+        self.process.stale_write();
         Ok(None)
     }
 }

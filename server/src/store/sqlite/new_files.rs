@@ -38,7 +38,7 @@ impl SqliteStore {
                 .map(|(id, lease)| folder.of_attempt((*id).into(), *lease));
             folder.remove_unnamed(attempt, &named, &held.collect())
         };
-        self.local.remove_unnamed(remove).await;
+        self.process.remove_unnamed(remove).await;
         Ok(())
     }
 }

@@ -120,7 +120,7 @@ impl SqliteStore {
             transaction.commit().await?;
             Ok(named)
         };
-        self.local.disk.with_reserve(write).await
+        self.process.disk.with_reserve(write).await
     }
 }
 

@@ -12,7 +12,7 @@ use sqlx::{ConnectOptions, Connection};
 use crate::clock::Clock;
 use crate::store::address::{is_postgres, shown_address};
 use crate::store::folder::beside;
-use crate::store::local::Local;
+use crate::store::process_state::ProcessState;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::lock::lock;
 use crate::store::sqlite::migrations::migrator;
@@ -53,7 +53,7 @@ impl SqliteStore {
             .busy_timeout(BUSY_TIMEOUT);
         let path = options.get_filename().to_owned();
         let lock = lock(&path)?;
-        let local = Local::prepare(&path, None, limits, clock);
+        let process = ProcessState::prepare(&path, None, limits, clock);
         let is_new = identity::schema_version(&path).await?.is_none();
         if is_new {
             // A database has it from its beginning; an older one gets it when it is restored from a backup.
@@ -99,7 +99,7 @@ impl SqliteStore {
             cause,
         })?;
         let store = Self {
-            local,
+            process,
             file: (file.dev(), file.ino()),
             writer,
             readers,

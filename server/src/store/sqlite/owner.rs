@@ -155,7 +155,7 @@ async fn row(pool: &SqlitePool) -> Result<Option<Row>, StoreError> {
 impl SqliteStore {
     pub(in crate::store) async fn beat(&self) -> Result<(), StoreError> {
         let file = std::fs::metadata(&self.path).map(|file| (file.dev(), file.ino()));
-        if file.ok() != Some(self.file) && !self.local.disk.note_removed_database() {
+        if file.ok() != Some(self.file) && !self.process.disk.note_removed_database() {
             tracing::error!(path = %self.path.display(), "{}", StoreError::Removed);
         }
         let write = async || {
@@ -166,7 +166,7 @@ impl SqliteStore {
             self.store_step(Now::read().stepped_ms()).await?;
             Ok(written.rows_affected())
         };
-        if self.local.disk.with_reserve(write).await? > 0 {
+        if self.process.disk.with_reserve(write).await? > 0 {
             return Ok(());
         }
         let other = row(&self.readers).await?;

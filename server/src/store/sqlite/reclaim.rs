@@ -27,7 +27,7 @@ impl SqliteStore {
         &self,
         length: Duration,
     ) -> Result<Reclaimed, StoreError> {
-        let lost = Lost::EndedBy(self.local.clock.now().monotonic_ms);
+        let lost = Lost::EndedBy(self.process.clock.now().monotonic_ms);
         self.reclaim(lost, length, "its worker was lost").await
     }
 
@@ -39,7 +39,7 @@ impl SqliteStore {
         sqlx::query(
             "UPDATE jobs SET lease_expires_at = ? WHERE status = 'running' AND is_remote AND lease_expires_at <> ?",
         )
-        .bind(self.local.clock.end_of(remote))
+        .bind(self.process.clock.end_of(remote))
         .bind(ENDED_BY_RESTORE)
         .execute(&self.writer)
         .await?;
@@ -72,7 +72,8 @@ impl SqliteStore {
         for (id, fruitless, cancel_requested, ended_at) in lost {
             let id = Uuid::from(id);
             let end = leases::reclaim(ended_at, reason);
-            let job = EndingJob::running(id, fruitless, self.local.attempt_limit, cancel_requested);
+            let job =
+                EndingJob::running(id, fruitless, self.process.attempt_limit, cancel_requested);
             if job.after(end.transition).is_some_and(Status::is_terminal) {
                 // Nothing is solved under the new lease, which this process holds.
                 let row = sqlx::query(
@@ -93,10 +94,10 @@ impl SqliteStore {
         }
         transaction.commit().await?;
         for (id, status) in &queued {
-            self.local.ended_by_worker(*id, *status);
+            self.process.ended_by_worker(*id, *status);
         }
         for _ in 0..queued.len() + ending.len() {
-            self.local.metrics.reclaimed.inc();
+            self.process.metrics.reclaimed.inc();
         }
         Ok(Reclaimed {
             queued: queued.len(),

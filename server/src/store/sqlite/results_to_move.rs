@@ -57,7 +57,7 @@ impl SqliteStore {
         .bind(id.to_string())
         .fetch_all(connection)
         .await?;
-        let file = |row| file_to_move(&self.local, id, row, None);
+        let file = |row| file_to_move(&self.process, id, row, None);
         Ok(rows.iter().map(file).collect())
     }
 }

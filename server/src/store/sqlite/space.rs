@@ -22,7 +22,7 @@ impl SqliteStore {
         .fetch_one(&self.readers)
         .await?;
         let (free, bytes) = (free.unsigned_abs(), bytes.unsigned_abs());
-        self.local.disk.set_free_in_database(free * bytes);
+        self.process.disk.set_free_in_database(free * bytes);
         if !is_incremental || free <= KEPT_PAGES {
             return Ok(());
         }
@@ -35,7 +35,7 @@ impl SqliteStore {
             .await?;
             Ok(())
         };
-        self.local.disk.with_reserve(vacuum).await
+        self.process.disk.with_reserve(vacuum).await
     }
 
     pub(in crate::store) async fn checkpoint_wal(&self) -> Result<(), StoreError> {

@@ -4,10 +4,10 @@ use sqlx::sqlite::SqlitePoolOptions;
 
 use crate::objects::Objects;
 use crate::store::folder::Folder;
+use crate::store::integrity::check::Verification;
 use crate::store::sqlite::backup::{at, check_integrity, database_at};
 use crate::store::sqlite::migrations::newest_version;
 use crate::store::sqlite::open::options;
-use crate::store::verification::Verification;
 use crate::store::{BackupError, CopySummary, StoreError};
 
 /// Connections: jobs are read beside each other.
@@ -31,7 +31,7 @@ pub(in crate::store) async fn verify(
     check_integrity(&path, &mut *database.acquire().await?).await?;
     let folder = Folder::beside(&path);
     let verification = Verification::of(&database, &folder, objects).await?;
-    let verified = verification.run().await;
+    let report = verification.run().await;
     database.close().await;
-    verified
+    report
 }

@@ -292,7 +292,7 @@ async fn files_on_another_machine_keep_no_other_results_from_being_moved() {
     std::fs::remove_dir_all(&results).expect("removed");
     let database = WithObjects::at(place).await;
     let id = database.ended(Transition::Succeed).await;
-    let objects = database.store.local().objects.as_ref().expect("given");
+    let objects = database.store.process().objects.as_ref().expect("given");
     let mut written = Vec::new();
     // Two jobs a round, of which three cannot be moved here.
     for _ in 0..2 {

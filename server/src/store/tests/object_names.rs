@@ -15,7 +15,7 @@ async fn objects_that_are_named_twice_stay(database: WithObjects) {
         database.ended(Transition::Succeed).await,
         database.ended(Transition::Succeed).await,
     ];
-    let objects = store.local().objects.as_ref().expect("objects");
+    let objects = store.process().objects.as_ref().expect("objects");
     let written = store.write_objects(objects, 512).await.expect("written");
     let written = written.into_iter().map(|moved| moved.expect("written"));
     let moved: Vec<_> = written.flatten().collect();

@@ -95,11 +95,7 @@ async fn remote(service: &Service) -> (Remote, TempDir, impl Drop) {
     let address = listener.local_addr().expect("an address");
     let stopping = CancellationToken::new();
     let router = crate::http::router(service.app.clone());
-    tokio::spawn(crate::http::serve(
-        (listener, None),
-        router,
-        stopping.clone(),
-    ));
+    tokio::spawn(crate::http::serve(listener, None, router, stopping.clone()));
     let client = Client::new(&format!("http://{address}"), None, None).expect("a client");
     let scratch = TempDir::new().expect("a folder");
     let remote = Remote::new(RemoteOptions {
@@ -227,7 +223,7 @@ async fn finished(job_source: &impl JobSource, service: &Service) {
         .expect("the store")
         .expect("a file");
     let bytes = stored.read().await.expect("read");
-    crate::store::integrity::check_bytes(&entry, &bytes).expect("as it was sent");
+    crate::store::checksum::check_bytes(&entry, &bytes).expect("as it was sent");
 }
 
 async fn documented(job_source: &impl JobSource, service: &Service) {

@@ -23,8 +23,8 @@ use crate::http::extract::JobId;
 use crate::http::job_error::JobError;
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::routes::results::download_file::attachment;
-use crate::store::integrity::Checksum;
-use crate::store::{Content, integrity};
+use crate::store::checksum::Checksum;
+use crate::store::{Content, checksum};
 
 /// Size of the chunks of the body, bytes.
 const CHUNK_BYTES: usize = 64 << 10;
@@ -71,7 +71,7 @@ pub(crate) async fn archive(
     for file in &files {
         // Whatever can be known to be damaged is a problem instead of an archive that breaks off.
         let checked = documents.get(&file.name);
-        match checked.map(|bytes| integrity::check_bytes(file, bytes)) {
+        match checked.map(|bytes| checksum::check_bytes(file, bytes)) {
             Some(Ok(())) => {}
             Some(Err(_)) | None => drop(app.verified_file(id, &file.name).await?),
         }
@@ -142,7 +142,7 @@ fn write_archive(app: &App, archived: &Archived, writer: ChunkWriter) -> io::Res
         };
         match content {
             Content::Inline(bytes) => archive.write_all(&bytes)?,
-            content => copy(app, (archived.id, file), content, &mut archive)?,
+            content => copy(app, archived.id, file, content, &mut archive)?,
         }
     }
     archive.finish()?.into_inner().flush()
@@ -151,7 +151,8 @@ fn write_archive(app: &App, archived: &Archived, writer: ChunkWriter) -> io::Res
 /// Copies a content into an archive, and checks it meanwhile.
 fn copy(
     app: &App,
-    (id, entry): (Uuid, &ResultFile),
+    id: Uuid,
+    entry: &ResultFile,
     content: Content,
     archive: &mut impl Write,
 ) -> io::Result<()> {

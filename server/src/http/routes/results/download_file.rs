@@ -19,7 +19,7 @@ use crate::http::extract::{JobId, Name};
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::verified_file::VerifiedFile;
 use crate::store::Chunks;
-use crate::store::integrity::Checksum;
+use crate::store::checksum::Checksum;
 
 /// Error of a file that the manifest does not list.
 #[derive(Debug, thiserror::Error)]

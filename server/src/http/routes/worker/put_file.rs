@@ -14,7 +14,7 @@ use crate::http::bodies::{ArrivingBody, BodyError};
 use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::worker_access::WorkerToken;
 use crate::objects::{ObjectFile, Source};
-use crate::store::integrity::Checksum;
+use crate::store::checksum::Checksum;
 use crate::store::{Lease, LeaseState, NewContent};
 use crate::worker::protocol::Taken;
 

@@ -10,7 +10,7 @@ use super::disk::{file, sync};
 use crate::export::files::{create_folder, parent};
 use crate::store::folder::Folder;
 use crate::store::rows::entry;
-use crate::store::{BackupError, CopySummary, IntegrityError, integrity};
+use crate::store::{BackupError, CopySummary, IntegrityError, checksum};
 
 /// A file that differs from its entry.
 #[derive(Debug)]
@@ -74,7 +74,7 @@ fn copy_file(
     target: &Path,
     entry: &ResultFile,
 ) -> Result<Result<(), IntegrityError>, BackupError> {
-    let checked = integrity::check_file(entry, source);
+    let checked = checksum::check_file(entry, source);
     if let Err(IntegrityError::Missing) = checked {
         return Ok(checked);
     }
@@ -84,5 +84,5 @@ fn copy_file(
     sync(target)?;
     sync(folder)?;
     // The copy is checked, not only the source.
-    Ok(checked.and_then(|()| integrity::check_file(entry, target)))
+    Ok(checked.and_then(|()| checksum::check_file(entry, target)))
 }

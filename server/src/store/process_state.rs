@@ -40,7 +40,7 @@ pub(in crate::store) fn log_lost_writes(lease: Lease, number: i64, last: i64) {
 
 /// State of a store in this process, besides the database.
 #[derive(Debug)]
-pub(in crate::store) struct Local {
+pub(in crate::store) struct ProcessState {
     pub(in crate::store) changes: broadcast::Sender<Uuid>,
     pub(in crate::store) waiting: Arc<Notify>,
     /// Notifications to the other processes that serve the same database.
@@ -69,7 +69,7 @@ pub(in crate::store) struct Local {
     pub(in crate::store) batch_counts: BatchCounts,
 }
 
-impl Local {
+impl ProcessState {
     /// Prepares the state. Its files are named after `files` and lie beside it; those of this machine also have its name where
     /// other machines have theirs in the same folder.
     pub(in crate::store) fn prepare(

@@ -10,10 +10,10 @@ use crate::export::files::{hexadecimal, sha256};
 use crate::objects::{Objects, ObjectsError};
 use crate::store::block::Block;
 use crate::store::folder::Folder;
+use crate::store::integrity::checked_read::{CheckedRead, failed, in_background, object};
+use crate::store::integrity::database::{FileRow, VerifiableDatabase};
 use crate::store::stored_block::{StoredBlock, StoredObject, unreadable};
-use crate::store::verified::{FileRow, Verified};
-use crate::store::verified_content::{Found, failed, in_background, object};
-use crate::store::{BackupError, CopySummary, StoreError, integrity};
+use crate::store::{BackupError, CopySummary, StoreError, checksum};
 
 /// Jobs that are verified at the same time: a request for an object takes some 10 to 100 ms.
 const AT_ONCE: usize = 16;
@@ -35,7 +35,7 @@ pub(in crate::store) struct Verification<'a, D> {
     marks: Mutex<()>,
 }
 
-impl<'a, D: Verified> Verification<'a, D> {
+impl<'a, D: VerifiableDatabase> Verification<'a, D> {
     /// Prepares the verification of a database whose large results are in a folder.
     ///
     /// # Errors
@@ -68,10 +68,10 @@ impl<'a, D: Verified> Verification<'a, D> {
     /// [`BackupError`] if the database fails, or if results are in a store of objects that is not given.
     pub(in crate::store) async fn run(&self) -> Result<CopySummary, BackupError> {
         let jobs = self.database.jobs().await?;
-        let verified = stream::iter(jobs).map(|job| self.job(job));
-        let mut verified = verified.buffered(AT_ONCE);
+        let report = stream::iter(jobs).map(|job| self.job(job));
+        let mut report = report.buffered(AT_ONCE);
         let (mut all, mut unread) = (CopySummary::default(), 0);
-        while let Some(job) = verified.next().await {
+        while let Some(job) = report.next().await {
             let job = job?;
             unread = match job.unread.len() {
                 0 if job.files == 0 => unread,
@@ -89,39 +89,39 @@ impl<'a, D: Verified> Verification<'a, D> {
 
     /// Verifies a job: files before the block, into which they may be moved meanwhile.
     async fn job(&self, job: Uuid) -> Result<CopySummary, BackupError> {
-        let mut verified = CopySummary {
+        let mut report = CopySummary {
             jobs: 1,
             ..CopySummary::default()
         };
         for file in self.database.files(job, None).await? {
-            self.file(job, &file, &mut verified).await?;
+            self.file(job, &file, &mut report).await?;
         }
-        self.block(job, &mut verified).await?;
-        self.checkpoint(job, &mut verified).await?;
-        Ok(verified)
+        self.block(job, &mut report).await?;
+        self.checkpoint(job, &mut report).await?;
+        Ok(report)
     }
 
     async fn file(
         &self,
         job: Uuid,
         file: &FileRow,
-        verified: &mut CopySummary,
+        report: &mut CopySummary,
     ) -> Result<(), BackupError> {
         let FileRow { entry, .. } = file;
         let what = format!("{} of job {job}", entry.name);
         let found = match self.check_file(job, file).await? {
-            Found::Compared(None) => None,
+            CheckedRead::Compared(None) => None,
             // The file may have been deleted or replaced meanwhile.
             _ if !self.is_named(job, file).await? => return Ok(()),
-            Found::Compared(how) => how,
-            Found::Missing(how) => Some(how),
-            Found::Gone => return Ok(()),
-            Found::Unread(cause) => {
-                verified.unread.push(format!("{what}: {cause}"));
+            CheckedRead::Compared(how) => how,
+            CheckedRead::Missing(how) => Some(how),
+            CheckedRead::Gone => return Ok(()),
+            CheckedRead::Unread(cause) => {
+                report.unread.push(format!("{what}: {cause}"));
                 return Ok(());
             }
-            Found::Elsewhere(cause) => {
-                verified.elsewhere.push(format!("{what}: {cause}"));
+            CheckedRead::Elsewhere(cause) => {
+                report.elsewhere.push(format!("{what}: {cause}"));
                 return Ok(());
             }
         };
@@ -130,21 +130,21 @@ impl<'a, D: Verified> Verification<'a, D> {
             let how = found.as_deref();
             self.database.mark_file(job, file, how).await?;
         }
-        verified.count(entry, &what, found);
+        report.count(entry, &what, found);
         Ok(())
     }
 
     /// Compares a file with its entry.
-    async fn check_file(&self, job: Uuid, file: &FileRow) -> Result<Found, BackupError> {
+    async fn check_file(&self, job: Uuid, file: &FileRow) -> Result<CheckedRead, BackupError> {
         let FileRow { entry, .. } = file;
         let _large = self.large_one(entry.bytes).await;
         if let Some(key) = &file.object {
             let objects = self.objects.ok_or(StoreError::NoObjects)?;
             return Ok(match object(objects, key, 0..entry.bytes, entry).await {
                 // The original has moved or removed the object.
-                Found::Missing(_) if self.is_copy => {
-                    Found::Elsewhere("the original of this copy may have removed it".to_owned())
-                }
+                CheckedRead::Missing(_) if self.is_copy => CheckedRead::Elsewhere(
+                    "the original of this copy may have removed it".to_owned(),
+                ),
                 found => found,
             });
         }
@@ -158,14 +158,17 @@ impl<'a, D: Verified> Verification<'a, D> {
                 self.folder.exists()
             };
             if !has_folder {
-                return Ok(Found::Elsewhere(format!("{} is not here", path.display())));
+                return Ok(CheckedRead::Elsewhere(format!(
+                    "{} is not here",
+                    path.display()
+                )));
             }
-            in_background(move || integrity::check_file(&entry, &path)).await
+            in_background(move || checksum::check_file(&entry, &path)).await
         } else {
             let Some(content) = self.database.content(job, file).await? else {
-                return Ok(Found::Gone);
+                return Ok(CheckedRead::Gone);
             };
-            in_background(move || integrity::check_bytes(&entry, &content)).await
+            in_background(move || checksum::check_bytes(&entry, &content)).await
         };
         Ok(checked.into())
     }
@@ -177,7 +180,7 @@ impl<'a, D: Verified> Verification<'a, D> {
     }
 
     /// Checks the block of a job, and the files behind it in an object.
-    async fn block(&self, job: Uuid, verified: &mut CopySummary) -> Result<(), BackupError> {
+    async fn block(&self, job: Uuid, report: &mut CopySummary) -> Result<(), BackupError> {
         let Some(stored) = self.database.block(job).await? else {
             return Ok(());
         };
@@ -190,11 +193,12 @@ impl<'a, D: Verified> Verification<'a, D> {
                 let what = format!("results of job {job}");
                 match found {
                     _ if !is_named => {}
-                    Found::Compared(Some(how)) | Found::Missing(how) => {
-                        verified.damaged.push(format!("{what}: {how}"));
+                    CheckedRead::Compared(Some(how)) | CheckedRead::Missing(how) => {
+                        report.damaged.push(format!("{what}: {how}"));
                     }
-                    Found::Unread(cause) => verified.unread.push(format!("{what}: {cause}")),
-                    Found::Compared(None) | Found::Gone | Found::Elsewhere(_) => {}
+                    CheckedRead::Unread(cause) => report.unread.push(format!("{what}: {cause}")),
+                    CheckedRead::Compared(None) | CheckedRead::Gone | CheckedRead::Elsewhere(_) => {
+                    }
                 }
                 return Ok(());
             }
@@ -204,12 +208,12 @@ impl<'a, D: Verified> Verification<'a, D> {
         for (entry, found) in checked {
             let what = format!("{} of job {job}", entry.name);
             let how = match found {
-                Found::Compared(how) => how,
-                Found::Unread(cause) => {
-                    verified.unread.push(format!("{what}: {cause}"));
+                CheckedRead::Compared(how) => how,
+                CheckedRead::Unread(cause) => {
+                    report.unread.push(format!("{what}: {cause}"));
                     continue;
                 }
-                Found::Missing(_) | Found::Gone | Found::Elsewhere(_) => continue,
+                CheckedRead::Missing(_) | CheckedRead::Gone | CheckedRead::Elsewhere(_) => continue,
             };
             let new = marked.mark(&entry.name, how.as_deref());
             if let Some(new) = new.map_err(StoreError::from)? {
@@ -217,7 +221,7 @@ impl<'a, D: Verified> Verification<'a, D> {
                 self.database.mark_block(job, &entries, &new).await?;
                 entries = new;
             }
-            verified.count(&entry, &what, how);
+            report.count(&entry, &what, how);
         }
         Ok(())
     }
@@ -227,7 +231,7 @@ impl<'a, D: Verified> Verification<'a, D> {
         &self,
         stored: StoredBlock,
         job: Uuid,
-    ) -> Result<Result<Vec<(ResultFile, Found)>, Found>, StoreError> {
+    ) -> Result<Result<Vec<(ResultFile, CheckedRead)>, CheckedRead>, StoreError> {
         let content = stored.object.as_ref().map(StoredObject::content);
         let (key, behind) = content.unwrap_or_default();
         let is_object = stored.object.is_some();
@@ -238,13 +242,13 @@ impl<'a, D: Verified> Verification<'a, D> {
                 return Ok(Err(failed(objects, &key, behind, cause).await));
             }
             Err(error @ StoreError::DamagedResults { .. }) => {
-                return Ok(Err(Found::Compared(Some(error.to_string()))));
+                return Ok(Err(CheckedRead::Compared(Some(error.to_string()))));
             }
             Err(error) => return Err(error),
         };
         let documents = block.all();
         let compared = |(entry, bytes): (&ResultFile, _)| {
-            let found = integrity::check_bytes(entry, bytes).into();
+            let found = checksum::check_bytes(entry, bytes).into();
             (entry.clone(), found)
         };
         let mut checked: Vec<_> = documents.map(compared).collect();
@@ -256,7 +260,7 @@ impl<'a, D: Verified> Verification<'a, D> {
             let _large = self.large_one(entry.bytes).await;
             let range = behind + range.start..behind + range.end;
             match object(objects, &key, range, entry).await {
-                found @ Found::Missing(_) => return Ok(Err(found)),
+                found @ CheckedRead::Missing(_) => return Ok(Err(found)),
                 found => checked.push((entry.clone(), found)),
             }
         }
@@ -264,7 +268,7 @@ impl<'a, D: Verified> Verification<'a, D> {
     }
 
     /// Checks the checkpoint of a job. A damaged one is not marked: its job would restart at cycle 0.
-    async fn checkpoint(&self, job: Uuid, verified: &mut CopySummary) -> Result<(), BackupError> {
+    async fn checkpoint(&self, job: Uuid, report: &mut CopySummary) -> Result<(), BackupError> {
         let Some(row) = self.database.checkpoint(job).await? else {
             return Ok(());
         };
@@ -284,9 +288,9 @@ impl<'a, D: Verified> Verification<'a, D> {
                     let now = self.database.checkpoint(job).await?;
                     let is_named = now.is_some_and(|now| now.object == row.object);
                     if is_named && !is_missing {
-                        verified.unread.push(format!("{what}: {cause}"));
+                        report.unread.push(format!("{what}: {cause}"));
                     } else if is_named && !self.is_copy {
-                        verified.damaged.push(format!("{what}: {cause}"));
+                        report.damaged.push(format!("{what}: {cause}"));
                     }
                     return Ok(());
                 }
@@ -295,7 +299,7 @@ impl<'a, D: Verified> Verification<'a, D> {
         let (found, named) = (sha256(&state), hexadecimal(&row.sha256));
         if found != named {
             let how = format!("it has the SHA-256 {found}, the database names {named}");
-            verified.damaged.push(format!("{what}: {how}"));
+            report.damaged.push(format!("{what}: {how}"));
         }
         Ok(())
     }

@@ -7,11 +7,11 @@ use futures_util::StreamExt;
 
 use crate::objects::{ObjectPart, Objects, ObjectsError};
 use crate::store::IntegrityError;
-use crate::store::integrity::Checksum;
+use crate::store::checksum::Checksum;
 
 /// Finding of the verification of a content.
 #[derive(Debug)]
-pub(in crate::store) enum Found {
+pub(in crate::store) enum CheckedRead {
     /// Compared with its checksum; the damage, if any.
     Compared(Option<String>),
     /// The object is missing.
@@ -24,7 +24,7 @@ pub(in crate::store) enum Found {
     Elsewhere(String),
 }
 
-impl From<Result<(), IntegrityError>> for Found {
+impl From<Result<(), IntegrityError>> for CheckedRead {
     fn from(checked: Result<(), IntegrityError>) -> Self {
         match checked {
             Ok(()) => Self::Compared(None),
@@ -40,7 +40,7 @@ pub(in crate::store) async fn object(
     key: &str,
     range: Range<u64>,
     entry: &ResultFile,
-) -> Found {
+) -> CheckedRead {
     let end = range.end;
     match checksum(&ObjectPart::new(objects, key, range)).await {
         Ok(found) => found.compare(entry).into(),
@@ -54,15 +54,15 @@ pub(in crate::store) async fn failed(
     key: &str,
     bytes: u64,
     cause: ObjectsError,
-) -> Found {
+) -> CheckedRead {
     if let ObjectsError::Missing(_) = cause {
-        return Found::Missing(cause.to_string());
+        return CheckedRead::Missing(cause.to_string());
     }
     match objects.length(key).await {
-        Ok(length) if length < bytes => Found::Compared(Some(format!(
+        Ok(length) if length < bytes => CheckedRead::Compared(Some(format!(
             "the object {key} has {length} bytes, at least {bytes} are named"
         ))),
-        _ => Found::Unread(cause.to_string()),
+        _ => CheckedRead::Unread(cause.to_string()),
     }
 }
 

@@ -36,7 +36,7 @@ impl From<(Vec<u8>, Vec<u8>, Option<String>)> for CheckpointRow {
 }
 
 /// A database whose results are verified, which may be in use.
-pub(in crate::store) trait Verified {
+pub(in crate::store) trait VerifiableDatabase {
     /// True if machines with other folders serve it.
     const HAS_SEVERAL_FOLDERS: bool;
 

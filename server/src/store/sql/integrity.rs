@@ -8,11 +8,11 @@ use super::dialect::{
 };
 use super::stored_blocks::{stored_block, update_entries};
 use crate::store::StoreError;
+use crate::store::integrity::database::{CheckpointRow, FileRow, VerifiableDatabase};
 use crate::store::rows::{StoredRow, entry};
 use crate::store::stored_block::StoredBlock;
-use crate::store::verified::{CheckpointRow, FileRow, Verified};
 
-impl Verified for Pool<Engine> {
+impl VerifiableDatabase for Pool<Engine> {
     const HAS_SEVERAL_FOLDERS: bool = HAS_SEVERAL_FOLDERS;
 
     async fn jobs(&self) -> Result<Vec<Uuid>, StoreError> {
