@@ -127,12 +127,13 @@ impl Service {
         let app = App::new(
             Arc::clone(&store),
             config.access,
-            (stopping.clone(), Arc::clone(&supervisor)),
+            stopping.clone(),
+            Arc::clone(&supervisor),
             http::openapi::document(),
         )
         .with_workers(health);
         app.workers.exchange(&store).await;
-        tasks.start_upkeep(&app, &worker, (config.keep_days, reclaimed));
+        tasks.start_upkeep(&app, &worker, config.keep_days, reclaimed);
         if moves_results {
             tasks.start_mover();
         }
@@ -143,7 +144,8 @@ impl Service {
         tasks.start(("listener", 0), move || {
             let tls = config.tls.clone();
             serve(
-                (listener.take(), tls),
+                listener.take(),
+                tls,
                 address,
                 router.clone(),
                 served.clone(),
@@ -185,7 +187,8 @@ fn shows_token(listen: SocketAddr, is_encrypted: bool) -> bool {
 
 /// Serves on the listener of the start, or on a new one at the same address.
 async fn serve(
-    (listener, tls): (Option<TcpListener>, Option<Tls>),
+    listener: Option<TcpListener>,
+    tls: Option<Tls>,
     address: SocketAddr,
     router: Router,
     stopping: CancellationToken,
@@ -195,7 +198,7 @@ async fn serve(
         None => bound(address),
     };
     match bound {
-        Ok(listener) => http::serve((listener, tls), router, stopping).await,
+        Ok(listener) => http::serve(listener, tls, router, stopping).await,
         Err(error) => tracing::error!(%error, %address, "cannot listen again"),
     }
 }

@@ -106,8 +106,15 @@ pub fn run_from(
         ended = error_control::solve(scene, &mut recorder);
     }
     let summary = ended?;
-    let settings = (life, follows_product, resistance_lacks);
-    let life = life::entries(settings, scene, &summary.life, summary.last.cycle);
+    let done = summary.last.cycle;
+    let life = life::entries(
+        life,
+        follows_product,
+        resistance_lacks,
+        scene,
+        &summary.life,
+        done,
+    );
     Ok(Summary {
         motion: motion.cloned(),
         mission: mission::blocks(blocks, &summary),
@@ -207,11 +214,7 @@ impl Recorder<'_> {
     }
 
     /// Emits a document of a snapshot as a file.
-    fn document(
-        &mut self,
-        (name, cycle): (String, u64),
-        document: &impl Serialize,
-    ) -> ControlFlow<()> {
+    fn document(&mut self, name: String, cycle: u64, document: &impl Serialize) -> ControlFlow<()> {
         match serde_json::to_vec(document) {
             Ok(bytes) => (self.on)(ChildMessage::Fields(FieldsFile {
                 name,
@@ -240,12 +243,12 @@ impl Observer for Recorder<'_> {
                 let area = snapshot.area.as_ref();
                 let area = area.map(|maps| maps::document(cycle, maps));
                 if let Some(maps) = area.or_else(|| line_maps::document(snapshot)) {
-                    self.document((maps::file_name(cycle), cycle), &maps)?;
+                    self.document(maps::file_name(cycle), cycle, &maps)?;
                     self.picture(&maps)?;
                 }
                 if !snapshot.stations.is_empty() {
-                    let name = (line::file_name(cycle), cycle);
-                    self.document(name, &line::document(snapshot))?;
+                    let name = line::file_name(cycle);
+                    self.document(name, cycle, &line::document(snapshot))?;
                 }
                 ChildMessage::Snapshot(Box::new(history::snapshot(snapshot)))
             }

@@ -42,12 +42,13 @@ const POLL_INTERVAL: Duration = Duration::from_secs(1);
 /// [`JobSourceError`] if the job source does not accept this worker.
 pub async fn work<E: JobSource>(
     job_source: Arc<E>,
-    (process, config): (Arc<WorkerProcess>, Arc<WorkerConfig>),
+    process: Arc<WorkerProcess>,
+    config: Arc<WorkerConfig>,
     stopping: CancellationToken,
 ) -> Result<(), JobSourceError> {
     while !stopping.is_cancelled() {
         // Summaries make it too large for the stack of a task.
-        match Box::pin(next(&*job_source, (&process, &config), &stopping)).await {
+        match Box::pin(next(&*job_source, &process, &config, &stopping)).await {
             Ok(true) => {}
             Ok(false) if config.until_idle && is_idle(&*job_source).await => return Ok(()),
             Ok(false) => {
@@ -97,7 +98,8 @@ async fn is_idle(job_source: &impl JobSource) -> bool {
 /// Claims jobs and supervises them to their ends, one after the other; `false` if there was none to claim.
 async fn next<E: JobSource>(
     job_source: &E,
-    (process, config): (&WorkerProcess, &WorkerConfig),
+    process: &WorkerProcess,
+    config: &WorkerConfig,
     stopping: &CancellationToken,
 ) -> Result<bool, JobSourceError> {
     let claimed = process.claim(job_source, config, stopping).await?;

@@ -99,7 +99,7 @@ async fn pilot(arguments: &SlurmArguments, client: &Client, workers: &SlurmWorke
                 return Ok(());
             }
             Ok(demand) => {
-                if let Err(error) = starts.place((fleet, workers), &demand).await {
+                if let Err(error) = starts.place(fleet, workers, &demand).await {
                     let unlisted = starts.submissions.unlisted();
                     tracing::warn!(%error, unlisted, "no workers were submitted, or it is not known whether they were");
                 }
@@ -123,7 +123,8 @@ impl Starts {
     /// Submits workers if fewer are there than a demand is enough for.
     async fn place(
         &mut self,
-        (fleet, workers): (Fleet, &SlurmWorkers),
+        fleet: Fleet,
+        workers: &SlurmWorkers,
         demand: &Demand,
     ) -> Result<(), SlurmError> {
         let Tasks {

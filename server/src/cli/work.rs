@@ -40,8 +40,8 @@ pub(super) fn run(arguments: &WorkArguments) -> Ended {
         }));
         let stopping = CancellationToken::new();
         let start = || {
-            let shared = (Arc::clone(&process), Arc::clone(&config));
-            worker::work(Arc::clone(&remote), shared, stopping.clone())
+            let (process, config) = (Arc::clone(&process), Arc::clone(&config));
+            worker::work(Arc::clone(&remote), process, config, stopping.clone())
         };
         let mut workers: JoinSet<_> = (0..slots).map(|_| start()).collect();
         tracing::info!(

@@ -19,7 +19,7 @@ pub(super) fn planned(resolved: &Resolved) -> Vec<PlannedLife> {
     let modelled = criteria.filter(|criterion| kind_of(criterion) != CriterionKind::Resistance);
     let lives = modelled.zip(&scene.life);
     lives
-        .map(|(criterion, depth)| life(scene, rated.as_ref(), (criterion, *depth)))
+        .map(|(criterion, depth)| life(scene, rated.as_ref(), criterion, *depth))
         .collect()
 }
 
@@ -34,7 +34,8 @@ fn kind_of(criterion: &Criterion) -> CriterionKind {
 fn life(
     scene: &Scene,
     rated: Option<&RatedMatings>,
-    (criterion, depth): (&Criterion, scene::Criterion),
+    criterion: &Criterion,
+    depth: scene::Criterion,
 ) -> PlannedLife {
     let cycles = expected_life::cycles(scene, depth);
     let is_exposure = kind_of(criterion) != CriterionKind::WornDepth;

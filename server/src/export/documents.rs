@@ -115,7 +115,7 @@ pub fn all(results: &Results<'_>) -> Result<Vec<Document>, DocumentError> {
 /// The picture of the life, with its file name.
 fn life(name: &str, spec: &Spec, record: &Record) -> Option<(&'static str, Picture)> {
     let follows = FollowsProduct::of(&spec.interface);
-    let settings = (&spec.life, spec.cycles.is_none());
-    let drawn = pictures::life::picture(name, settings, follows, record)?;
+    let is_continuous = spec.cycles.is_none();
+    let drawn = pictures::life::picture(name, &spec.life, is_continuous, follows, record)?;
     Some(("life", drawn))
 }

@@ -15,7 +15,9 @@ const NO_BAND: &str = "no band: the life does not follow the product of coeffici
 
 /// Life by the criteria of resolved settings. A criterion of the resistance is not modelled where something is lacking.
 pub(crate) fn entries(
-    (settings, follows, resistance_lacks): (&LifeSettings, FollowsProduct, &[String]),
+    settings: &LifeSettings,
+    follows: FollowsProduct,
+    resistance_lacks: &[String],
     scene: &Scene,
     life: &Life,
     done: u64,
@@ -33,13 +35,13 @@ pub(crate) fn entries(
             };
             match state {
                 Some((number, state)) => {
-                    let ratios = ratios((settings, follows), criterion, || {
+                    let ratios = ratios(settings, follows, criterion, || {
                         let of_scenes = life.scattered.iter();
                         of_scenes
                             .map(|lives| lives.get(number).copied().flatten())
                             .collect()
                     });
-                    entry((scene, ratios), (criterion, state), done)
+                    entry(scene, ratios, criterion, state, done)
                 }
                 None => not_modelled(criterion, resistance_lacks),
             }
@@ -57,7 +59,8 @@ fn numbered(
 
 /// Lives over that of the median contact: by the product of coefficient and cycles where that decides, or those that were solved for.
 fn ratios(
-    (settings, follows): (&LifeSettings, FollowsProduct),
+    settings: &LifeSettings,
+    follows: FollowsProduct,
     criterion: &Criterion,
     solved: impl Fn() -> Option<Vec<f64>>,
 ) -> Option<Ratios> {
@@ -113,8 +116,10 @@ fn empty(criterion: &Criterion, status: LifeStatus) -> LifeEntry {
 }
 
 fn entry(
-    (scene, ratios): (&Scene, Option<Ratios>),
-    (criterion, state): (&Criterion, &CriterionState),
+    scene: &Scene,
+    ratios: Option<Ratios>,
+    criterion: &Criterion,
+    state: &CriterionState,
     done: u64,
 ) -> LifeEntry {
     let measured = |status| LifeEntry {

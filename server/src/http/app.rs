@@ -58,7 +58,8 @@ impl App {
     pub fn new(
         store: Arc<Store>,
         access: Access,
-        (stopping, supervisor): (CancellationToken, Arc<Supervisor>),
+        stopping: CancellationToken,
+        supervisor: Arc<Supervisor>,
         document: &'static Value,
     ) -> Self {
         Self {

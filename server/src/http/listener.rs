@@ -48,11 +48,12 @@ const ACCEPT_PAUSE: Duration = Duration::from_millis(50);
 
 /// Serves until shutdown, with TLS if it is given; returns when the last connection has ended.
 pub async fn serve(
-    (listener, tls): (TcpListener, Option<Tls>),
+    listener: TcpListener,
+    tls: Option<Tls>,
     router: Router,
     stopping: CancellationToken,
 ) {
-    serve_at_most(limits(), (listener, tls), router, stopping).await;
+    serve_at_most(limits(), listener, tls, router, stopping).await;
 }
 
 /// The limits that the file handles of this process allow.
@@ -68,7 +69,8 @@ fn limits() -> ConnectionLimits {
 
 async fn serve_at_most(
     limits: ConnectionLimits,
-    (listener, tls): (TcpListener, Option<Tls>),
+    listener: TcpListener,
+    tls: Option<Tls>,
     router: Router,
     stopping: CancellationToken,
 ) {
@@ -187,12 +189,7 @@ mod tests {
         let address = listener.local_addr().expect("an address");
         let stopping = CancellationToken::new();
         let router = Router::new().route("/", get(|| async { "here" }));
-        let served = tokio::spawn(serve_at_most(
-            FEW,
-            (listener, None),
-            router,
-            stopping.clone(),
-        ));
+        let served = tokio::spawn(serve_at_most(FEW, listener, None, router, stopping.clone()));
         let mut idle = Vec::new();
         for _ in 0..20 {
             idle.push(TcpStream::connect(address).await.expect("a connection"));
@@ -213,12 +210,7 @@ mod tests {
         let address = listener.local_addr().expect("an address");
         let stopping = CancellationToken::new();
         let router = Router::new().route("/", get(|| async { "here" }));
-        let served = tokio::spawn(serve_at_most(
-            FEW,
-            (listener, None),
-            router,
-            stopping.clone(),
-        ));
+        let served = tokio::spawn(serve_at_most(FEW, listener, None, router, stopping.clone()));
         let (begin, end) = ("GET / HTTP/1.1\r\nx: ", "\r\nconnection: close\r\n\r\n");
         for (length, parts, line) in [
             (MAX_HEAD_BYTES, 1, "HTTP/1.1 200"),
@@ -255,12 +247,7 @@ mod tests {
             pending::<String>()
         };
         let router = Router::new().route("/", get(endless));
-        let served = tokio::spawn(serve_at_most(
-            FEW,
-            (listener, None),
-            router,
-            stopping.clone(),
-        ));
+        let served = tokio::spawn(serve_at_most(FEW, listener, None, router, stopping.clone()));
         let asking = [request(address).await, request(address).await];
         for _ in &asking {
             begins.recv().await.expect("it begins");
@@ -289,12 +276,7 @@ mod tests {
         let address = listener.local_addr().expect("an address");
         let stopping = CancellationToken::new();
         let router = Router::new().route("/", get(|| async { pending::<String>().await }));
-        let served = tokio::spawn(serve_at_most(
-            FEW,
-            (listener, None),
-            router,
-            stopping.clone(),
-        ));
+        let served = tokio::spawn(serve_at_most(FEW, listener, None, router, stopping.clone()));
         let stream = request(address).await;
         tokio::time::sleep(Duration::from_millis(50)).await;
         stopping.cancel();

@@ -40,7 +40,8 @@ impl Service {
         let mut app = App::new(
             store,
             Access::default(),
-            (CancellationToken::new(), Arc::default()),
+            CancellationToken::new(),
+            Arc::default(),
             openapi::document(),
         );
         // Fixed figures: a measurement takes a second or two.

@@ -40,7 +40,7 @@ struct Seen {
 
 impl WorkerRegistry {
     /// Notes a claim.
-    pub(super) fn claims(&self, worker: Uuid, (host, slots): (&str, usize), memory: MemoryBudget) {
+    pub(super) fn claims(&self, worker: Uuid, host: &str, slots: usize, memory: MemoryBudget) {
         let offer = WorkerOffer {
             host: shown(host, LONGEST_HOST),
             slots: i64::try_from(slots.min(MAX_SLOTS)).unwrap_or(i64::MAX),

@@ -61,9 +61,14 @@ impl Tasks {
         });
         for number in 0..count {
             let (store, stopping) = self.shared();
-            let shared = (Arc::clone(&process), Arc::clone(config));
+            let (process, config) = (Arc::clone(&process), Arc::clone(config));
             self.start((WORKER, number), move || {
-                let work = worker::work(Arc::clone(&store), shared.clone(), stopping.clone());
+                let work = worker::work(
+                    Arc::clone(&store),
+                    Arc::clone(&process),
+                    Arc::clone(&config),
+                    stopping.clone(),
+                );
                 async move {
                     if let Err(error) = work.await {
                         tracing::error!(%error, "a worker has ended");
@@ -80,7 +85,8 @@ impl Tasks {
         &mut self,
         app: &App,
         config: &Arc<WorkerConfig>,
-        (keep_days, reclaimed): (Option<u32>, Reclaimed),
+        keep_days: Option<u32>,
+        reclaimed: Reclaimed,
     ) {
         let mut reclaimed = Some(reclaimed);
         let ((store, stopping), config) = (self.shared(), Arc::clone(config));

@@ -50,7 +50,8 @@ impl<E: JobSource> Attempt<'_, E> {
         &self,
         updates: &[JobUpdate],
         mut number: i64,
-        (end, computed): (&End, Option<Computed>),
+        end: &End,
+        computed: Option<Computed>,
     ) -> Result<(), JobSourceError> {
         let lease = self.lease();
         match end.transition {
@@ -105,7 +106,7 @@ impl<E: JobSource> Attempt<'_, E> {
         };
         let (folder, summary) = (self.job_source.folder(lease), end.summary.as_ref());
         let computed = Arc::clone(computed);
-        Ok(make_documents(folder, (lease.job, spec), summary, computed).await?)
+        Ok(make_documents(folder, lease.job, spec, summary, computed).await?)
     }
 }
 

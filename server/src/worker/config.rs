@@ -74,7 +74,8 @@ impl WorkerConfig {
     /// them: one thread and the estimate if there is not enough for more.
     pub(super) fn threads_and_memory(
         &self,
-        (estimated_mb, free_mb): (i64, i64),
+        estimated_mb: i64,
+        free_mb: i64,
         running: usize,
     ) -> (usize, i64) {
         let threads = (self.threads / running.max(1)).max(1);
@@ -119,18 +120,18 @@ mod tests {
             threads: 8,
             ..config()
         };
-        let taken = |memory, running| config.threads_and_memory(memory, running);
-        let threads = [0, 1, 2, 3, 8, 20].map(|running| taken((100, 1_000), running).0);
+        let taken = |free_mb, running| config.threads_and_memory(100, free_mb, running);
+        let threads = [0, 1, 2, 3, 8, 20].map(|running| taken(1_000, running).0);
         assert_eq!(threads, [8, 8, 4, 2, 1, 1]);
-        assert_eq!(taken((100, 160), 1), (8, 160));
-        assert_eq!(taken((100, 1_000), 8), (1, 100));
+        assert_eq!(taken(160, 1), (8, 160));
+        assert_eq!(taken(1_000, 8), (1, 100));
         // There is no memory for more threads, or a limit below it.
-        assert_eq!(taken((100, 159), 1), (1, 100));
+        assert_eq!(taken(159, 1), (1, 100));
         let limited = WorkerConfig {
             job_memory_mb: Some(159),
             ..config
         };
-        assert_eq!(limited.threads_and_memory((100, 1_000), 1), (1, 100));
+        assert_eq!(limited.threads_and_memory(100, 1_000, 1), (1, 100));
     }
 
     #[test]

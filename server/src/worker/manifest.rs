@@ -29,7 +29,8 @@ pub(super) type Documents = (Vec<NewFile>, Option<EncodedBlock>);
 /// [`StoreError::Prepare`] if a file cannot be written.
 pub(super) async fn make_documents(
     folder: PathBuf,
-    (job, spec): (Uuid, Spec),
+    job: Uuid,
+    spec: Spec,
     summary: Option<&Summary>,
     computed: Arc<Computed>,
 ) -> Result<Documents, StoreError> {

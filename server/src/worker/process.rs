@@ -167,7 +167,7 @@ impl WorkerProcess {
         memory.running += 1;
         let running = usize::try_from(memory.running).unwrap_or_default();
         let (threads, memory_mb) =
-            config.threads_and_memory((estimated_mb, memory.free_mb()), running);
+            config.threads_and_memory(estimated_mb, memory.free_mb(), running);
         memory.used_mb += memory_mb;
         SolveMemory {
             process: self,

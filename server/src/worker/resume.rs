@@ -31,7 +31,8 @@ pub(super) enum Start<'a> {
 pub(super) async fn start_of<'a, E: JobSource>(
     attempt: Attempt<'a, E>,
     buffer: &mut UpdateBuffer,
-    (deadline, stopping): (Option<Instant>, &CancellationToken),
+    deadline: Option<Instant>,
+    stopping: &CancellationToken,
 ) -> Result<Start<'a>, JobSourceError> {
     if stopping.is_cancelled() {
         return Ok(stopped());
@@ -41,9 +42,7 @@ pub(super) async fn start_of<'a, E: JobSource>(
         Some(ClaimedCheckpoint::Given(checkpoint)) => {
             Ok(Start::From(Some(Cow::Borrowed(checkpoint))))
         }
-        Some(ClaimedCheckpoint::Stored { .. }) => {
-            stored(attempt, buffer, (deadline, stopping)).await
-        }
+        Some(ClaimedCheckpoint::Stored { .. }) => stored(attempt, buffer, deadline, stopping).await,
     }
 }
 
@@ -51,7 +50,8 @@ pub(super) async fn start_of<'a, E: JobSource>(
 async fn stored<'a, E: JobSource>(
     attempt: Attempt<'a, E>,
     buffer: &mut UpdateBuffer,
-    (deadline, stopping): (Option<Instant>, &CancellationToken),
+    deadline: Option<Instant>,
+    stopping: &CancellationToken,
 ) -> Result<Start<'a>, JobSourceError> {
     let (job_source, lease) = (attempt.job_source, attempt.lease());
     let mut failures = 0;

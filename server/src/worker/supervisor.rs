@@ -94,7 +94,7 @@ async fn run<E: JobSource>(
     let started = if let Some(cause) = attempt.round.end() {
         Err(declined(cause))
     } else {
-        match start_of(attempt, &mut buffer, (deadline, stopping)).await? {
+        match start_of(attempt, &mut buffer, deadline, stopping).await? {
             Start::From(checkpoint) => {
                 let started = start(attempt, checkpoint.as_deref());
                 started.map_err(|cause| not_started(&cause))
@@ -108,7 +108,7 @@ async fn run<E: JobSource>(
         Err(end) => {
             let updates = buffer.take_all();
             let number = buffer.next_number();
-            return attempt.finalize(&updates, number, (&end, None)).await;
+            return attempt.finalize(&updates, number, &end, None).await;
         }
     };
     let mut supervision = Supervision {
@@ -130,7 +130,7 @@ async fn run<E: JobSource>(
     let updates = supervision.buffer.take_all();
     let number = supervision.buffer.next_number();
     let computed = supervision.buffer.take_computed();
-    attempt.finalize(&updates, number, (&end, computed)).await
+    attempt.finalize(&updates, number, &end, computed).await
 }
 
 fn start<E: JobSource>(

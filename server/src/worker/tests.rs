@@ -87,8 +87,8 @@ impl Scripted {
         let stopping = CancellationToken::new();
         let process = Arc::new(WorkerProcess::new(config.memory_mb, false));
         let health = Arc::clone(process.health());
-        let shared = (process, Arc::new(config));
-        let worker = tokio::spawn(work(Arc::clone(&store), shared, stopping.clone()));
+        let config = Arc::new(config);
+        let worker = tokio::spawn(work(Arc::clone(&store), process, config, stopping.clone()));
         Self {
             store,
             id,

@@ -25,7 +25,7 @@ pub(super) fn evaluate(
     let cycles = spec::cycles(spec);
     let mut table: Vec<StudyRun> = runs
         .iter()
-        .map(|run| row(run, (cycles, grid), &converged))
+        .map(|run| row(run, cycles, grid, &converged))
         .collect();
     table.sort_by(|a, b| a.cpu_s.total_cmp(&b.cpu_s));
     mark_front(&mut table, &converged.reference.uncertainty);
@@ -37,7 +37,7 @@ pub(super) fn evaluate(
     })
 }
 
-fn row(run: &Run, (cycles, grid): (u64, &Grid), converged: &Converged) -> StudyRun {
+fn row(run: &Run, cycles: u64, grid: &Grid, converged: &Converged) -> StudyRun {
     let found = run.found.as_ref().ok();
     let summary = found.map(|found| &found.summary);
     let errors = found.map(|found| converged.errors(&found.solution));

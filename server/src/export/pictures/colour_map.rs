@@ -82,7 +82,7 @@ fn draw(panel: &MapPanel, area: &Area<'_>) -> Result<(), PlotError> {
         .x_label_area_size(X_TITLE)
         .y_label_area_size(Y_TITLE)
         .build_cartesian_2d(x.clone(), y.clone())?;
-    for step in steps(panel, (&x, &y)) {
+    for step in steps(panel, &x, &y) {
         let colour = rgb(ramp(step.colour, STEPS)).filled();
         chart.draw_series([Rectangle::new(step.corners, colour)])?;
     }
@@ -109,7 +109,7 @@ struct Step {
 
 /// The area in rows of places, of which neighbours of the same colour are one rectangle. Each reaches to the far ends of the next places, which cover
 /// that again: no background shows between them.
-fn steps(panel: &MapPanel, (x, y): (&Ticks, &Ticks)) -> Vec<Step> {
+fn steps(panel: &MapPanel, x: &Ticks, y: &Ticks) -> Vec<Step> {
     let largest = panel.largest();
     let (width, height) = (x.to - x.from, y.to - y.from);
     let column = |index: usize| x.from + width * real(index) / real(PLACES.0);
@@ -251,7 +251,7 @@ mod tests {
             let axis = Axis::new("", Scale::Linear).with_range(AxisRange::Fixed(from, to));
             ticks::ticks(&axis, std::iter::empty())
         };
-        let steps = steps(&panel, (&axis(0.0, 4.0), &axis(-1.0, 1.0)));
+        let steps = steps(&panel, &axis(0.0, 4.0), &axis(-1.0, 1.0));
         assert_eq!(steps.len(), PLACES.1);
         assert!(steps.iter().all(|step| step.colour == STEPS - 1));
         assert!(steps.iter().all(|step| step.corners[1].1 <= 1.0 + 1e-12));

@@ -19,7 +19,8 @@ const GREY: Colour = [90, 90, 90];
 /// The picture of a run; `None` where nothing is exposed and no criterion is about the resistance.
 pub(crate) fn picture(
     name: &str,
-    (settings, is_continuous): (&LifeSettings, bool),
+    settings: &LifeSettings,
+    is_continuous: bool,
     follows: FollowsProduct,
     record: &Record,
 ) -> Option<Picture> {
@@ -247,7 +248,7 @@ mod tests {
     #[test]
     fn a_life_has_its_exposed_part_and_its_resistance_with_band_and_limits() {
         let given = settings(LIMITS);
-        let picture = picture("a tip", (&given, false), ALL, &history()).expect("a picture");
+        let picture = picture("a tip", &given, false, ALL, &history()).expect("a picture");
         let [exposed, resistance] = &picture.panels[..] else {
             panic!("two panels");
         };
@@ -286,7 +287,7 @@ mod tests {
             resistance: false,
             ..ALL
         };
-        let grows = picture("", (&given, false), grows, &history()).expect("a picture");
+        let grows = picture("", &given, false, grows, &history()).expect("a picture");
         assert_eq!(
             (grows.panels[0].series.len(), grows.panels[1].series.len()),
             (4, 2)
@@ -295,7 +296,7 @@ mod tests {
             coefficient_of_variation: Some(0.0),
             ..given
         };
-        let drawn = picture("", (&certain, false), ALL, &history()).expect("a picture");
+        let drawn = picture("", &certain, false, ALL, &history()).expect("a picture");
         assert_eq!(drawn.panels[0].series.len(), 2);
     }
 
@@ -307,11 +308,11 @@ mod tests {
             ..CycleReport::default()
         });
         let record = Record::new(&reports, &[]);
-        assert_eq!(picture("", (&settings(""), false), ALL, &record), None);
-        let limited = picture("", (&settings(LIMITS), true), ALL, &record);
+        assert_eq!(picture("", &settings(""), false, ALL, &record), None);
+        let limited = picture("", &settings(LIMITS), true, ALL, &record);
         assert_eq!(limited.map(|drawn| drawn.panels.len()), Some(1));
         assert_eq!(
-            picture("", (&settings(LIMITS), false), ALL, &Record::default()),
+            picture("", &settings(LIMITS), false, ALL, &Record::default()),
             None
         );
     }

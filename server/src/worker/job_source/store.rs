@@ -109,7 +109,7 @@ async fn stored_documents(
     let snapshots = store.snapshots(lease.job).await?;
     let folder = store.attempt_folder(lease);
     let computed = Arc::new(Computed::stored(rows, snapshots));
-    make_documents(folder, (lease.job, spec), summary, computed).await
+    make_documents(folder, lease.job, spec, summary, computed).await
 }
 
 /// Marks the files of a job that has ended without success and that do not exist.

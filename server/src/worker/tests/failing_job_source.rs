@@ -161,7 +161,7 @@ async fn a_job_whose_last_update_is_refused_does_not_succeed() {
     for transition in [Transition::Succeed, Transition::Cancel] {
         let end = End::without_result(transition, "the end");
         let ended = attempt
-            .finalize(&[JobUpdate::default()], 2, (&end, None))
+            .finalize(&[JobUpdate::default()], 2, &end, None)
             .await;
         assert_eq!(ended.is_ok(), transition == Transition::Cancel);
     }
@@ -175,7 +175,7 @@ async fn claims_of_a_worker_that_fails_are_abandoned() {
     let config = WorkerConfig::new(PathBuf::from("/nowhere"));
     let process = WorkerProcess::new(1_000, true);
     let stopping = CancellationToken::new();
-    let next = crate::worker::next(&job_source, (&process, &config), &stopping);
+    let next = crate::worker::next(&job_source, &process, &config, &stopping);
     Box::pin(next).await.expect_err("the job source fails");
     let abandoned = job_source.abandoned.lock().expect("no panic").clone();
     let jobs: Vec<u128> = abandoned.iter().map(|lease| lease.job.as_u128()).collect();
@@ -191,7 +191,7 @@ async fn short_jobs_that_were_claimed_together_go_back_together() {
     let config = WorkerConfig::new(PathBuf::from("/nowhere"));
     let process = WorkerProcess::new(1_000, true);
     let stopping = CancellationToken::new();
-    let next = crate::worker::next(&job_source, (&process, &config), &stopping);
+    let next = crate::worker::next(&job_source, &process, &config, &stopping);
     assert!(Box::pin(next).await.expect("an answer"));
     let finished = job_source.finished.lock().expect("no panic").clone();
     assert_eq!(finished, [Transition::Decline; 2]);
@@ -208,8 +208,13 @@ fn eight_workers(
     let process = Arc::new(WorkerProcess::new(1_000, true));
     let config = Arc::new(WorkerConfig::new(PathBuf::from("/nowhere")));
     let start = |_| {
-        let shared = (Arc::clone(&process), Arc::clone(&config));
-        tokio::spawn(work(Arc::clone(job_source), shared, stopping.clone()))
+        let (process, config) = (Arc::clone(&process), Arc::clone(&config));
+        tokio::spawn(work(
+            Arc::clone(job_source),
+            process,
+            config,
+            stopping.clone(),
+        ))
     };
     (0..8).map(start).collect()
 }

@@ -92,7 +92,8 @@ impl App {
     pub(super) async fn evaluate_batch<T: Send + 'static>(
         &self,
         batch: BatchId,
-        (part, detail): (BatchPart, BatchDetail),
+        part: BatchPart,
+        detail: BatchDetail,
         evaluate: impl FnOnce(StoredBatch) -> Result<T, EvaluateError> + Send + 'static,
     ) -> Result<T, ProblemResponse> {
         let BatchId { kind, id } = batch;

@@ -62,8 +62,8 @@ pub(crate) async fn sweep_outcomes(
         let table = batch.kind.table(&stored)?;
         Ok((table, followed_by(&stored.jobs)))
     };
-    let read = (part, batch.kind.table_detail());
-    let (table, first) = app.evaluate_batch(batch, read, evaluate).await?;
+    let detail = batch.kind.table_detail();
+    let (table, first) = app.evaluate_batch(batch, part, detail, evaluate).await?;
     // The rest of a long table is read while the client takes it.
     let rest = first.next.filter(|_| whole > first.jobs);
     let Some(next) = rest else {
@@ -98,8 +98,10 @@ pub(crate) async fn study_table(
 
 async fn table(app: &App, batch: BatchId) -> Result<Response, ProblemResponse> {
     let evaluate = move |stored| batch.kind.table(&stored);
-    let read = (BatchPart::WHOLE, batch.kind.table_detail());
-    let table = app.evaluate_batch(batch, read, evaluate).await?;
+    let detail = batch.kind.table_detail();
+    let table = app
+        .evaluate_batch(batch, BatchPart::WHOLE, detail, evaluate)
+        .await?;
     Ok(csv(batch, Body::from(table)))
 }
 

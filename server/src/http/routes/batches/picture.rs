@@ -56,8 +56,10 @@ pub(crate) async fn study_picture(
             PictureFormat::Svg => (SVG, report::svg(&study)?.into_bytes()),
         })
     };
-    let read = (BatchPart::WHOLE, batch.kind.document_detail());
-    let (media_type, bytes) = app.evaluate_batch(batch, read, draw).await?;
+    let detail = batch.kind.document_detail();
+    let (media_type, bytes) = app
+        .evaluate_batch(batch, BatchPart::WHOLE, detail, draw)
+        .await?;
     Ok(([(header::CONTENT_TYPE, media_type)], bytes).into_response())
 }
 

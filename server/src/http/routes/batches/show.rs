@@ -91,8 +91,9 @@ pub(super) async fn document(app: &App, batch: BatchId) -> Shown {
 async fn part(app: &App, batch: BatchId, part: BatchPart) -> Shown {
     let kind = batch.kind;
     let evaluate = move |stored| kind.document(stored, part);
-    let read = (part, kind.document_detail());
-    let document = app.evaluate_batch(batch, read, evaluate).await?;
+    let document = app
+        .evaluate_batch(batch, part, kind.document_detail(), evaluate)
+        .await?;
     Ok(Json(document))
 }
 

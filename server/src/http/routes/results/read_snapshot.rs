@@ -198,7 +198,7 @@ async fn read_part<T: DeserializeOwned + Serialize>(
     let mut document: T = match of_station {
         Some((station, part)) => {
             let At { cycle } = serde_json::from_str(&json)?;
-            part(cycle, section(app, id, (cycle, station)).await?)
+            part(cycle, section(app, id, cycle, station).await?)
         }
         None => serde_json::from_str(&json)?,
     };
@@ -224,7 +224,8 @@ struct At {
 async fn section(
     app: &App,
     id: Uuid,
-    (cycle, station): (u64, u32),
+    cycle: u64,
+    station: u32,
 ) -> Result<LineProfile, ProblemResponse> {
     let missing = |stations| NoStationError {
         id,

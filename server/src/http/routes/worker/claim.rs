@@ -62,7 +62,7 @@ pub(crate) async fn claim(
         ..body.request
     };
     let (worker, memory) = (request.request.worker, request.capacity.memory);
-    app.workers.claims(worker, (&body.host, body.slots), memory);
+    app.workers.claims(worker, &body.host, body.slots, memory);
     let until = Instant::now() + body.wait.min(LONGEST_WAIT);
     loop {
         let is_draining = app.workers.is_draining(worker);
