@@ -33,6 +33,24 @@ async fn a_running_job_is_watched_reloaded_and_cancelled() {
     browser.close().await;
 }
 
+/// Asserts that the results show every quantity of the interface that the summary has; those of accuracy and cost have cards of their own.
+async fn shows_quantities(server: &Server, browser: &Browser, id: &str) {
+    let (_, job) = server.get(&format!("/v1/jobs/{id}")).await;
+    let (_, list) = server.get("/v1/quantities").await;
+    let mut shown = 0;
+    for quantity in list["quantities"].as_array().expect("a list") {
+        let pointer = quantity["pointer"].as_str().unwrap_or_default();
+        let value = job["summary"].pointer(pointer);
+        let is_elsewhere = pointer.starts_with("/accuracy") || pointer.starts_with("/cost");
+        if value.is_some_and(Value::is_number) && !is_elsewhere {
+            let title = quantity["title"].as_str().expect("a title");
+            browser.shows("[aria-label=Result]", title).await;
+            shown += 1;
+        }
+    }
+    assert!(shown > 8, "{shown} quantities");
+}
+
 #[tokio::test]
 #[cfg_attr(
     not(has_chromium),
@@ -58,6 +76,7 @@ async fn a_job_that_has_ended_shows_all_that_it_has() {
     ] {
         browser.shows(part, text).await;
     }
+    shows_quantities(&server, &browser, &id).await;
     fits_a_phone(&browser, "job").await;
     // The slider goes to the first stored cycle, where Hertz' pressure is drawn as well.
     browser.scroll_to("section.snapshots").await;

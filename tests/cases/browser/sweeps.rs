@@ -77,6 +77,10 @@ async fn a_sweep_from_the_form_is_watched_to_its_end_and_its_map_opens_jobs() {
     browser
         .wait_for("document.querySelectorAll('.points tbody tr').length === 9")
         .await;
+    // Titles and units are those of the interface.
+    for title in ["deepest wear, µm", "worn area, receptacle, µm²"] {
+        browser.shows(".points thead", title).await;
+    }
     // The quantity and the kind of chart are in the address; the back button undoes them.
     browser.run("const choice = document.getElementById('choice-view'); choice.value = 'curves'; choice.dispatchEvent(new Event('change'))").await;
     let curves = "document.querySelector('[data-chart=sweep] .plot').data.length === 3 && location.hash.includes('view=curves')";
