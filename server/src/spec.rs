@@ -16,7 +16,7 @@ mod effects;
 mod environment;
 mod filled;
 mod films;
-mod law;
+pub mod law;
 mod law_range;
 mod life;
 mod load;

@@ -3,6 +3,7 @@
 mod archard;
 mod barwell;
 mod coulomb;
+mod definition;
 mod dissipated_energy;
 pub(super) mod friction_table;
 mod frictionless;
@@ -20,6 +21,7 @@ mod saracibar;
 mod sarkar;
 mod severe_oxidation;
 mod strain_hardening;
+mod values;
 mod wear_coefficient;
 pub(super) mod wearing_side;
 
@@ -36,8 +38,10 @@ use crate::spec::materials::{by_side, name};
 use crate::spec::plating_choice::PlatingChoice;
 use crate::spec::sourced::{Sourced, assumed, source};
 use crate::spec::system::{ArchardPreset, Preset};
+pub use definition::{Absent, ByFriction, LawDefinition, Number, Scaling, State};
 pub(super) use numbers::numbers;
 use properties::properties;
+use values::Values;
 use wearing_side::WearingSide;
 
 /// Hz, of a wear test: from creep to ultrasonic fretting.
@@ -56,7 +60,7 @@ pub(crate) struct Laws {
 #[derive(Clone, Copy)]
 pub(crate) struct LawDefaults<'a> {
     pub(crate) preset: &'a Preset,
-    pub(crate) plating_choices: Sides<PlatingChoice<'a>>,
+    pub(super) plating_choices: Sides<PlatingChoice<'a>>,
     pub(crate) surroundings_c: f64,
 }
 
@@ -253,25 +257,26 @@ fn by_name(
 ) -> (WearLaw, Option<scene::WearLaw>) {
     let law = diagnostics.enum_member(&side.field("law"), &given.law);
     diagnostics.provenance(side.field("law"), Provenance::Given);
-    match law {
-        Some(WearLawName::Archard) => archard::resolve(side, given, diagnostics),
-        Some(WearLawName::Sarkar) => sarkar::resolve(side, given, friction, diagnostics),
-        Some(WearLawName::Saracibar) => saracibar::resolve(side, given, friction, diagnostics),
-        Some(WearLawName::DissipatedEnergy) => {
-            dissipated_energy::resolve(side, given, friction, diagnostics)
+    let Some(law) = law else {
+        return (given.clone(), None);
+    };
+    let definition = match law {
+        WearLawName::Archard => &archard::DEFINITION,
+        WearLawName::Sarkar => &sarkar::DEFINITION,
+        WearLawName::Saracibar => &saracibar::DEFINITION,
+        WearLawName::DissipatedEnergy => &dissipated_energy::DEFINITION,
+        WearLawName::Barwell => &barwell::DEFINITION,
+        WearLawName::Quinn => return quinn::resolve(side, given, diagnostics),
+        WearLawName::MildOxidation => return mild_oxidation::resolve(side, given, diagnostics),
+        WearLawName::SevereOxidation => {
+            return severe_oxidation::resolve(side, given, friction, diagnostics);
         }
-        Some(WearLawName::Barwell) => barwell::resolve(side, given, diagnostics),
-        Some(WearLawName::Quinn) => quinn::resolve(side, given, diagnostics),
-        Some(WearLawName::MildOxidation) => mild_oxidation::resolve(side, given, diagnostics),
-        Some(WearLawName::SevereOxidation) => {
-            severe_oxidation::resolve(side, given, friction, diagnostics)
-        }
-        Some(WearLawName::Oxidation) => mechanism::resolve(side, given, friction, diagnostics),
-        Some(WearLawName::Rhee) => rhee::resolve(side, given, diagnostics),
-        Some(WearLawName::LoadRepetition) => load_repetition::resolve(side, given, diagnostics),
-        Some(WearLawName::StrainHardening) => strain_hardening::resolve(side, given, diagnostics),
-        None => (given.clone(), None),
-    }
+        WearLawName::Oxidation => return mechanism::resolve(side, given, friction, diagnostics),
+        WearLawName::Rhee => return rhee::resolve(side, given, diagnostics),
+        WearLawName::LoadRepetition => return load_repetition::resolve(side, given, diagnostics),
+        WearLawName::StrainHardening => return strain_hardening::resolve(side, given, diagnostics),
+    };
+    definition.resolve(law, Values::new(side, given, friction), diagnostics)
 }
 
 /// The law that the library lists for the material of a side.

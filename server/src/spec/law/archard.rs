@@ -1,28 +1,27 @@
-//! Archard's wear law: worn depth = (k/H) p |slip|.
+//! Archard's wear law.
 
 use api::spec::{Material, Provenance, WearLaw, WearLawName};
 use solver::scene;
 
 use crate::spec::diagnostics::Diagnostics;
-use crate::spec::law::wear_coefficient;
+use crate::spec::law::definition::{ByFriction, LawDefinition};
+use crate::spec::law::wear_coefficient::K_OVER_H;
 use crate::spec::law::wearing_side::WearingSide;
 use crate::spec::sourced::{Sourced, source, sourced};
 use crate::spec::system::ArchardPreset;
 
-/// The fields of the law.
-const FIELDS: [&str; 4] = ["law", "k", "hardness_mpa", "k_over_h_per_mpa"];
-
-/// Resolves the law of a specification.
-pub(super) fn resolve(
-    side: &WearingSide<'_>,
-    given: &WearLaw,
-    diagnostics: &mut Diagnostics,
-) -> (WearLaw, Option<scene::WearLaw>) {
-    diagnostics.check_fields(&side.pointer, given, &FIELDS, "archard");
-    let (filled, k_over_h) = wear_coefficient::resolve(side, given, diagnostics);
-    let law = k_over_h.map(|k_over_h_per_mpa| scene::WearLaw::Archard { k_over_h_per_mpa });
-    (filled, law)
-}
+pub(super) const DEFINITION: LawDefinition = LawDefinition {
+    formula: "dh = (k/H) p |ds|",
+    states: &[],
+    friction: ByFriction::Independent,
+    groups: &[K_OVER_H],
+    choices: &[],
+    engine_law: |values| {
+        Some(scene::WearLaw::Archard {
+            k_over_h_per_mpa: values.k_over_h_per_mpa()?,
+        })
+    },
+};
 
 /// The coefficients that a side has where its specification gives none.
 struct Defaults {

@@ -2,81 +2,80 @@
 
 use std::ops::RangeInclusive;
 
-use api::spec::{Provenance, WearCourse, WearLaw};
+use api::spec::{EnumValue, Provenance, WearCourse};
 use solver::scene::{self, Barwell, Course};
 
 use crate::spec::diagnostics::Diagnostics;
-use crate::spec::law::wear_coefficient;
-use crate::spec::law::wearing_side::WearingSide;
-
-/// The fields of the law.
-const FIELDS: [&str; 6] = [
-    "law",
-    "k",
-    "hardness_mpa",
-    "k_over_h_per_mpa",
-    "course",
-    "characteristic_dose_mpa_mm",
-];
+use crate::spec::law::definition::{
+    Absent, ByFriction, FieldGroup, LawDefinition, Number, Scaling, State, each, number,
+};
+use crate::spec::law::values::Values;
+use crate::spec::law::wear_coefficient::K_OVER_H;
 
 /// Characteristic dose, MPa mm: from a passage of a light contact over an atom to that of a heavy one over the longest distance.
-pub(in crate::spec) const CHARACTERISTIC_DOSE_MPA_MM: RangeInclusive<f64> = 1e-9..=1e16;
+pub(super) const CHARACTERISTIC_DOSE_MPA_MM: RangeInclusive<f64> = 1e-9..=1e16;
 
-/// Resolves the law of a specification.
-pub(super) fn resolve(
-    side: &WearingSide<'_>,
-    given: &WearLaw,
-    diagnostics: &mut Diagnostics,
-) -> (WearLaw, Option<scene::WearLaw>) {
-    diagnostics.check_fields(&side.pointer, given, &FIELDS, "barwell");
-    let (filled, k_over_h) = wear_coefficient::resolve(side, given, diagnostics);
-    if k_over_h.is_some_and(|rate| rate <= 0.0) {
+const DOSE: FieldGroup = FieldGroup {
+    numbers: &[number!(
+        characteristic_dose_mpa_mm,
+        "D0",
+        CHARACTERISTIC_DOSE_MPA_MM,
+        Absent::Required(
+            "`barwell` needs the dose after which the rate has fallen or grown by a factor of e"
+        )
+    )
+    .scaled(Scaling::Inverse)],
+    resolve: course_and_dose,
+};
+
+pub(super) const DEFINITION: LawDefinition = LawDefinition {
+    formula: "h = (k/H) D0 (1 - exp(-D/D0)), (k/H) D or (k/H) D0 (exp(D/D0) - 1) after a dose D = int p |ds|",
+    states: &[State::Depth],
+    friction: ByFriction::Independent,
+    groups: &[K_OVER_H, DOSE],
+    choices: &["course"],
+    engine_law: |values| {
+        let rate_per_mpa = values.k_over_h_per_mpa()?;
+        let course = values.law.course.as_ref().and_then(EnumValue::known);
+        let course = match course {
+            Some(WearCourse::Steady) => {
+                return Some(scene::WearLaw::Archard {
+                    k_over_h_per_mpa: rate_per_mpa,
+                });
+            }
+            Some(WearCourse::Accelerating) => Course::Accelerating,
+            Some(WearCourse::Decelerating) | None => Course::Decelerating,
+        };
+        Some(scene::WearLaw::Barwell(Barwell {
+            rate_per_mpa,
+            dose_mpa_mm: values.law.characteristic_dose_mpa_mm?,
+            course,
+        }))
+    },
+};
+
+/// Resolves the course, and the dose of one that is not steady.
+fn course_and_dose(numbers: &[Number], values: &mut Values<'_>, diagnostics: &mut Diagnostics) {
+    let (side, given) = (values.side, values.given);
+    if values.k_over_h_per_mpa().is_some_and(|rate| rate <= 0.0) {
         let detail =
             "without an initial rate there is no course; write null if the part does not wear";
         diagnostics.fault(&side.pointer, detail);
     }
-    let course = course(side, given, diagnostics);
-    let pointer = side.field("characteristic_dose_mpa_mm");
-    if course == Some(WearCourse::Steady) {
-        if given.characteristic_dose_mpa_mm.is_some() {
-            diagnostics.foreign_field(&side.pointer, "characteristic_dose_mpa_mm", "steady");
-        }
-        let law = k_over_h.map(|k_over_h_per_mpa| scene::WearLaw::Archard { k_over_h_per_mpa });
-        return (filled, law);
-    }
-    let dose_mpa_mm = diagnostics.required(
-        &pointer,
-        given.characteristic_dose_mpa_mm,
-        &CHARACTERISTIC_DOSE_MPA_MM,
-        "`barwell` needs the dose after which the rate has fallen or grown by a factor of e",
-    );
-    let course = match course {
-        Some(WearCourse::Accelerating) => Course::Accelerating,
-        _ => Course::Decelerating,
-    };
-    let law = k_over_h.map(|rate_per_mpa| {
-        scene::WearLaw::Barwell(Barwell {
-            rate_per_mpa,
-            dose_mpa_mm,
-            course,
-        })
-    });
-    (filled, law)
-}
-
-fn course(
-    side: &WearingSide<'_>,
-    given: &WearLaw,
-    diagnostics: &mut Diagnostics,
-) -> Option<WearCourse> {
     let pointer = side.field("course");
-    let Some(course) = &given.course else {
+    let course = if let Some(course) = &given.course {
+        diagnostics.provenance(&pointer, Provenance::Given);
+        diagnostics.enum_member(&pointer, course)
+    } else {
         let detail = "`barwell` needs how the rate changes: decelerating, steady or accelerating";
         diagnostics.missing(&pointer, detail);
-        return None;
+        None
     };
-    diagnostics.provenance(&pointer, Provenance::Given);
-    diagnostics.enum_member(&pointer, course)
+    if course != Some(WearCourse::Steady) {
+        each(numbers, values, diagnostics);
+    } else if given.characteristic_dose_mpa_mm.is_some() {
+        diagnostics.foreign_field(&side.pointer, "characteristic_dose_mpa_mm", "steady");
+    }
 }
 
 #[cfg(test)]

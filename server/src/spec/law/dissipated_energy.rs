@@ -1,40 +1,35 @@
-//! Wear by dissipated energy: worn depth = alpha mu p |slip|.
+//! Wear by dissipated energy.
 
 use std::ops::RangeInclusive;
 
-use api::spec::{Provenance, WearLaw};
 use solver::scene;
 
-use crate::spec::diagnostics::Diagnostics;
-use crate::spec::law::wearing_side::WearingSide;
-
-/// The fields of the law.
-const FIELDS: [&str; 2] = ["law", "energy_coefficient_mm3_per_j"];
+use crate::spec::law::definition::{
+    Absent, ByFriction, FieldGroup, LawDefinition, Scaling, each, number,
+};
 
 /// Worn volume per dissipated energy, mm^3/J: k/H = 1 1/MPa at mu = 1 is 1 000 mm^3/J.
-pub(in crate::spec) const ENERGY_COEFFICIENT_MM3_PER_J: RangeInclusive<f64> = 0.0..=1e3;
+pub(super) const ENERGY_COEFFICIENT_MM3_PER_J: RangeInclusive<f64> = 0.0..=1e3;
 
-/// Resolves the law of a specification beside a coefficient of friction.
-pub(super) fn resolve(
-    side: &WearingSide<'_>,
-    given: &WearLaw,
-    friction: f64,
-    diagnostics: &mut Diagnostics,
-) -> (WearLaw, Option<scene::WearLaw>) {
-    diagnostics.check_fields(&side.pointer, given, &FIELDS, "dissipated_energy");
-    let pointer = side.field("energy_coefficient_mm3_per_j");
-    let Some(mm3_per_j) = given.energy_coefficient_mm3_per_j else {
-        diagnostics.missing(
-            &pointer,
-            "`dissipated_energy` needs the worn volume per energy",
-        );
-        return (given.clone(), None);
-    };
-    diagnostics.provenance(&pointer, Provenance::Given);
-    diagnostics.check_range(&pointer, mm3_per_j, &ENERGY_COEFFICIENT_MM3_PER_J);
-    let law = scene::WearLaw::DissipatedEnergy {
-        mm3_per_j,
-        friction,
-    };
-    (given.clone(), Some(law))
-}
+pub(super) const DEFINITION: LawDefinition = LawDefinition {
+    formula: "dh = alpha mu p |ds|",
+    states: &[],
+    friction: ByFriction::Proportional,
+    groups: &[FieldGroup {
+        numbers: &[number!(
+            energy_coefficient_mm3_per_j,
+            "alpha",
+            ENERGY_COEFFICIENT_MM3_PER_J,
+            Absent::Required("`dissipated_energy` needs the worn volume per energy")
+        )
+        .scaled(Scaling::Proportional)],
+        resolve: each,
+    }],
+    choices: &[],
+    engine_law: |values| {
+        Some(scene::WearLaw::DissipatedEnergy {
+            mm3_per_j: values.given.energy_coefficient_mm3_per_j?,
+            friction: values.friction,
+        })
+    },
+};
