@@ -7,8 +7,7 @@ use solver::sides::{Side, Sides};
 
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::environment;
-use crate::spec::law::properties::properties;
-use crate::spec::law::{Laws, friction_table};
+use crate::spec::law::{ByFriction, Laws, definition, friction_table};
 use crate::spec::plating;
 
 /// The laws with the coefficients of friction of the layers of platings; checks whether doses can be read from the wear of these
@@ -50,7 +49,7 @@ pub(super) fn check(resolved: &Spec, friction: &scene::Friction, diagnostics: &m
             let Some(law) = law.and_then(|law| law.law.known()) else {
                 continue;
             };
-            if properties(law).by_friction {
+            if definition(law).friction != ByFriction::Independent {
                 let detail = format!(
                     "`{}` takes one coefficient of friction, and that of this contact changes; write `archard`, or a constant coefficient",
                     law.as_str()

@@ -3,7 +3,7 @@
 use api::rating::Coefficient;
 use api::spec::{Material, PlatingLayer, Spec, WearLaw};
 
-use crate::spec::law::properties::{Constant, properties};
+use crate::spec::law::definition;
 use crate::spec::materials::name;
 
 /// Multiplies all of them by a factor; returns them with their values before and after.
@@ -48,12 +48,17 @@ fn scale_law(
         return Vec::new();
     };
     let mut scaled = Vec::new();
-    for Constant { field, of, scaling } in properties(name_of_law).constants {
+    for number in definition(name_of_law).numbers() {
+        let Some(scaling) = number.scaling else {
+            continue;
+        };
         let factor = scaling.factor(law, factor);
-        let Some(value) = of(law) else { continue };
+        let Some(value) = (number.of)(law) else {
+            continue;
+        };
         let given = std::mem::replace(value, *value * factor);
         scaled.push(Coefficient {
-            pointer: format!("{pointer}/{field}"),
+            pointer: format!("{pointer}/{}", number.field),
             material: material.and_then(name).map(str::to_owned),
             given,
             implied: *value,
@@ -71,7 +76,7 @@ mod tests {
     use super::*;
     use crate::spec;
     use crate::spec::diagnostics::Diagnostics;
-    use crate::spec::law::check_plated;
+    use crate::spec::law::{ByFriction, check_plated};
 
     /// Constants of each law by which it wears.
     fn constants(law: WearLawName) -> &'static str {
@@ -159,7 +164,7 @@ mod tests {
             let wear = wear.as_mut().and_then(Option::as_mut).expect("a law");
             wear.hardness_mpa = Some(3400.0);
             let resolved = spec::resolve(&changed.spec);
-            let by_hardness = properties(law).by_hardness;
+            let by_hardness = definition(law).takes_hardness();
             assert_eq!(resolved.is_ok(), by_hardness, "{law:?}");
             let after = resolved.map(|resolved| worn_contact_half_length_mm(&resolved.scene));
             let changes = after.is_ok_and(|after| (after / before - 1.0).abs() > 1e-6);
@@ -172,7 +177,8 @@ mod tests {
         for law in WearLawName::ALL {
             let worn = |friction| worn_contact_half_length_mm(&scene(law, friction).scene);
             let changes = (worn(0.5) / worn(0.4) - 1.0).abs() > 1e-6;
-            assert_eq!(changes, properties(law).by_friction, "{law:?}");
+            let by_friction = definition(law).friction != ByFriction::Independent;
+            assert_eq!(changes, by_friction, "{law:?}");
         }
     }
 
@@ -181,7 +187,7 @@ mod tests {
         for law in WearLawName::ALL {
             let of_engine = scene(law, 0.4).scene.receptacle.wear.expect("a law");
             let uniform = of_engine.uniform().is_some();
-            assert_eq!(uniform, properties(law).uniform, "{law:?}");
+            assert_eq!(uniform, definition(law).is_uniform(), "{law:?}");
         }
     }
 

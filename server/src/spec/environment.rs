@@ -8,7 +8,7 @@ use solver::scene::{Conductor, Softening};
 use solver::sides::Sides;
 
 use crate::spec::diagnostics::Diagnostics;
-use crate::spec::law::properties;
+use crate::spec::law::definition;
 use crate::spec::materials;
 use crate::spec::plating;
 use crate::spec::sourced::assumed;
@@ -96,7 +96,7 @@ pub(super) fn softening(resolved: &Spec, diagnostics: &mut Diagnostics) -> Sides
 fn wears_by_hardness(law: &WearLaw) -> bool {
     law.law
         .known()
-        .is_none_or(|law| properties::properties(law).by_hardness)
+        .is_none_or(|law| definition(law).takes_hardness())
 }
 
 fn properties(material: Option<&Material>) -> Option<&MaterialProperties> {

@@ -10,11 +10,9 @@ mod frictionless;
 mod load_repetition;
 mod mechanism;
 mod mild_oxidation;
-mod numbers;
 mod oxidation;
 mod power;
 mod preset_friction;
-pub(super) mod properties;
 mod quinn;
 mod rhee;
 mod saracibar;
@@ -39,15 +37,44 @@ use crate::spec::plating_choice::PlatingChoice;
 use crate::spec::sourced::{Sourced, assumed, source};
 use crate::spec::system::{ArchardPreset, Preset};
 pub use definition::{Absent, ByFriction, LawDefinition, Number, Scaling, State};
-pub(super) use numbers::numbers;
-use properties::properties;
 use values::Values;
 use wearing_side::WearingSide;
 
 /// Hz, of a wear test: from creep to ultrasonic fretting.
-pub(super) const MEASURED_AT_HZ: RangeInclusive<f64> = 1e-6..=1e6;
+const MEASURED_AT_HZ: RangeInclusive<f64> = 1e-6..=1e6;
 
 const FRICTION: &str = "/interface/friction";
+
+/// Returns the definition of a wear law.
+pub fn definition(name: WearLawName) -> &'static LawDefinition {
+    match name {
+        WearLawName::Archard => &archard::DEFINITION,
+        WearLawName::Sarkar => &sarkar::DEFINITION,
+        WearLawName::Saracibar => &saracibar::DEFINITION,
+        WearLawName::DissipatedEnergy => &dissipated_energy::DEFINITION,
+        WearLawName::Barwell => &barwell::DEFINITION,
+        WearLawName::Quinn => &quinn::DEFINITION,
+        WearLawName::MildOxidation => &mild_oxidation::DEFINITION,
+        WearLawName::SevereOxidation => &severe_oxidation::DEFINITION,
+        WearLawName::Oxidation => &mechanism::DEFINITION,
+        WearLawName::Rhee => &rhee::DEFINITION,
+        WearLawName::LoadRepetition => &load_repetition::DEFINITION,
+        WearLawName::StrainHardening => &strain_hardening::DEFINITION,
+    }
+}
+
+/// Numbers of all wear laws with their ranges.
+pub(super) fn numbers() -> Vec<(&'static str, RangeInclusive<f64>)> {
+    let laws = WearLawName::ALL.into_iter();
+    let numbers = laws.flat_map(|law| definition(law).numbers());
+    let numbers = numbers.map(|number| (number.field, number.range.clone()));
+    let mut numbers: Vec<_> = numbers
+        .chain([("measured_at_hz", MEASURED_AT_HZ)])
+        .collect();
+    numbers.sort_unstable_by_key(|(field, _)| *field);
+    numbers.dedup();
+    numbers
+}
 
 /// The engine's laws.
 #[derive(Debug, Clone, PartialEq)]
@@ -188,7 +215,7 @@ pub(super) fn check_plated(
     if law.is_some_and(|law| law.uniform().is_none()) {
         let uniform = WearLawName::ALL
             .into_iter()
-            .filter(|law| properties(*law).uniform);
+            .filter(|law| definition(*law).is_uniform());
         let names: Vec<&str> = uniform.map(WearLawName::as_str).collect();
         let detail = format!(
             "a plating and its base wear by laws whose rate is the same in every state: {}; a bare part, with the `plating` `[]`, \
@@ -237,46 +264,22 @@ pub(super) fn given_wear(
 ) -> (WearLaw, Option<scene::WearLaw>) {
     let pointer = side.field("measured_at_hz");
     let measured_at_hz = diagnostics.optional(&pointer, given.measured_at_hz, &MEASURED_AT_HZ);
-    let law = WearLaw {
+    let own = WearLaw {
         measured_at_hz: None,
         ..given.clone()
     };
-    let (filled, law) = by_name(side, &law, friction, diagnostics);
+    let values = Values::new(side, &own, friction);
+    let name = diagnostics.enum_member(&side.field("law"), &given.law);
+    diagnostics.provenance(side.field("law"), Provenance::Given);
+    let (filled, law) = match name {
+        Some(name) => definition(name).resolve(name, values, diagnostics),
+        None => (values.law, None),
+    };
     let filled = WearLaw {
         measured_at_hz,
         ..filled
     };
     (filled, law)
-}
-
-fn by_name(
-    side: &WearingSide<'_>,
-    given: &WearLaw,
-    friction: f64,
-    diagnostics: &mut Diagnostics,
-) -> (WearLaw, Option<scene::WearLaw>) {
-    let law = diagnostics.enum_member(&side.field("law"), &given.law);
-    diagnostics.provenance(side.field("law"), Provenance::Given);
-    let Some(law) = law else {
-        return (given.clone(), None);
-    };
-    let definition = match law {
-        WearLawName::Archard => &archard::DEFINITION,
-        WearLawName::Sarkar => &sarkar::DEFINITION,
-        WearLawName::Saracibar => &saracibar::DEFINITION,
-        WearLawName::DissipatedEnergy => &dissipated_energy::DEFINITION,
-        WearLawName::Barwell => &barwell::DEFINITION,
-        WearLawName::Quinn => return quinn::resolve(side, given, diagnostics),
-        WearLawName::MildOxidation => return mild_oxidation::resolve(side, given, diagnostics),
-        WearLawName::SevereOxidation => {
-            return severe_oxidation::resolve(side, given, friction, diagnostics);
-        }
-        WearLawName::Oxidation => return mechanism::resolve(side, given, friction, diagnostics),
-        WearLawName::Rhee => return rhee::resolve(side, given, diagnostics),
-        WearLawName::LoadRepetition => return load_repetition::resolve(side, given, diagnostics),
-        WearLawName::StrainHardening => return strain_hardening::resolve(side, given, diagnostics),
-    };
-    definition.resolve(law, Values::new(side, given, friction), diagnostics)
 }
 
 /// The law that the library lists for the material of a side.

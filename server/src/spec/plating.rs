@@ -2,14 +2,14 @@
 
 use std::ops::RangeInclusive;
 
-use api::spec::{EnumValue, Material, PlatingLayer, Platings, Provenance, WearLaw, WearLawName};
+use api::spec::{Material, PlatingLayer, Platings, Provenance, WearLaw, WearLawName};
 use solver::law::softening::REFERENCE_C;
 use solver::scene::{self, Layer, MOST_LAYERS};
 use solver::sides::Sides;
 
 use crate::spec::diagnostics::Diagnostics;
-use crate::spec::law;
 use crate::spec::law::wearing_side::WearingSide;
+use crate::spec::law::{self, ByFriction, definition};
 use crate::spec::materials;
 use crate::spec::plating_choice::{self, PlatingChoice};
 use crate::spec::system::LayerPreset;
@@ -128,10 +128,8 @@ fn layer(
     let rate = law.and_then(scene::WearLaw::uniform);
     if rate.is_some_and(|rate| rate <= 0.0) {
         let of_friction = |law: &WearLaw| {
-            matches!(
-                law.law,
-                EnumValue::Known(WearLawName::Saracibar | WearLawName::DissipatedEnergy)
-            )
+            let name = law.law.known();
+            name.is_some_and(|name| definition(name).friction == ByFriction::Proportional)
         };
         if friction <= 0.0 && wear.as_ref().is_some_and(of_friction) {
             let detail = "without friction the layers of this law do not wear";

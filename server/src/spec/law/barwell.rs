@@ -13,7 +13,7 @@ use crate::spec::law::values::Values;
 use crate::spec::law::wear_coefficient::K_OVER_H;
 
 /// Characteristic dose, MPa mm: from a passage of a light contact over an atom to that of a heavy one over the longest distance.
-pub(super) const CHARACTERISTIC_DOSE_MPA_MM: RangeInclusive<f64> = 1e-9..=1e16;
+const CHARACTERISTIC_DOSE_MPA_MM: RangeInclusive<f64> = 1e-9..=1e16;
 
 const DOSE: FieldGroup = FieldGroup {
     numbers: &[number!(

@@ -115,6 +115,16 @@ impl LawDefinition {
         self.groups.iter().flat_map(|group| group.numbers)
     }
 
+    /// Returns `true` if the rate is the same in every state.
+    pub(in crate::spec) fn is_uniform(&self) -> bool {
+        self.states.is_empty()
+    }
+
+    /// Returns `true` if the law takes the hardness of the wearing surface.
+    pub(in crate::spec) fn takes_hardness(&self) -> bool {
+        self.numbers().any(|number| number.field == "hardness_mpa")
+    }
+
     /// Resolves a law of this name; returns it with its defaults filled in.
     pub(super) fn resolve(
         &self,
@@ -167,6 +177,17 @@ impl Number {
                 *value = Some(*default);
             }
             (None, Absent::Other(_)) => {}
+        }
+    }
+}
+
+impl Scaling {
+    /// Factor on a number of a law for a factor on the wear coefficient.
+    pub(in crate::spec) fn factor(self, law: &WearLaw, factor: f64) -> f64 {
+        match self {
+            Self::Proportional => factor,
+            Self::Inverse => 1.0 / factor,
+            Self::Power(exponent) => factor.powf(exponent(law).unwrap_or(1.0)),
         }
     }
 }

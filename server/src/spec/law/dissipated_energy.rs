@@ -9,7 +9,7 @@ use crate::spec::law::definition::{
 };
 
 /// Worn volume per dissipated energy, mm^3/J: k/H = 1 1/MPa at mu = 1 is 1 000 mm^3/J.
-pub(super) const ENERGY_COEFFICIENT_MM3_PER_J: RangeInclusive<f64> = 0.0..=1e3;
+const ENERGY_COEFFICIENT_MM3_PER_J: RangeInclusive<f64> = 0.0..=1e3;
 
 pub(super) const DEFINITION: LawDefinition = LawDefinition {
     formula: "dh = alpha mu p |ds|",

@@ -1,50 +1,46 @@
-//! Wear by repetitions of the load: worn depth = t0 C1 p^C2 N^C3.
+//! Wear by repetitions of the load.
 
-use api::spec::WearLaw;
 use solver::scene::{self, LoadRepetition};
 
 use super::power::{
-    COURSE_EXPONENT, FACTOR, PRESSURE_EXPONENT, REFERENCE_LENGTH_MM, check_exponents, required,
+    COURSE_EXPONENT, FACTOR, PRESSURE_EXPONENT, REFERENCE_LENGTH_MM, REQUIRED, check_exponents,
 };
-use crate::spec::diagnostics::Diagnostics;
-use crate::spec::law::wearing_side::WearingSide;
+use crate::spec::law::definition::{
+    ByFriction, FieldGroup, LawDefinition, Scaling, State, each, number,
+};
 
-/// The fields of the law.
-const FIELDS: [&str; 5] = [
-    "law",
-    "wear_factor",
-    "pressure_exponent",
-    "repetition_exponent",
-    "reference_length_mm",
-];
+const CONSTANTS: FieldGroup = FieldGroup {
+    numbers: &[
+        number!(wear_factor, "C1", FACTOR, REQUIRED)
+            .scaled(Scaling::Power(|law| law.repetition_exponent)),
+        number!(pressure_exponent, "C2", PRESSURE_EXPONENT, REQUIRED),
+        number!(repetition_exponent, "C3", COURSE_EXPONENT, REQUIRED),
+        number!(reference_length_mm, "t0", REFERENCE_LENGTH_MM, REQUIRED),
+    ],
+    resolve: |numbers, values, diagnostics| {
+        each(numbers, values, diagnostics);
+        check_exponents(
+            values,
+            values.law.repetition_exponent,
+            "`repetition_exponent`",
+            diagnostics,
+        );
+    },
+};
 
-/// Resolves the law of a specification.
-pub(super) fn resolve(
-    side: &WearingSide<'_>,
-    given: &WearLaw,
-    diagnostics: &mut Diagnostics,
-) -> (WearLaw, Option<scene::WearLaw>) {
-    diagnostics.check_fields(&side.pointer, given, &FIELDS, "load_repetition");
-    let mut constant = |field, value, range| required(side, (field, value), range, diagnostics);
-    let law = LoadRepetition {
-        factor: constant("wear_factor", given.wear_factor, &FACTOR),
-        pressure_exponent: constant(
-            "pressure_exponent",
-            given.pressure_exponent,
-            &PRESSURE_EXPONENT,
-        ),
-        repetition_exponent: constant(
-            "repetition_exponent",
-            given.repetition_exponent,
-            &COURSE_EXPONENT,
-        ),
-        length_mm: constant(
-            "reference_length_mm",
-            given.reference_length_mm,
-            &REFERENCE_LENGTH_MM,
-        ),
-    };
-    let other = (law.repetition_exponent, "`repetition_exponent`");
-    check_exponents(side, given.pressure_exponent, other, diagnostics);
-    (given.clone(), Some(scene::WearLaw::Power(law.power_law())))
-}
+pub(super) const DEFINITION: LawDefinition = LawDefinition {
+    formula: "h = t0 C1 p^C2 N^C3 after N repetitions of the load, also where the contact sticks",
+    states: &[State::Depth, State::Repetitions],
+    friction: ByFriction::Independent,
+    groups: &[CONSTANTS],
+    choices: &[],
+    engine_law: |values| {
+        let law = LoadRepetition {
+            factor: values.law.wear_factor?,
+            pressure_exponent: values.law.pressure_exponent?,
+            repetition_exponent: values.law.repetition_exponent?,
+            length_mm: values.law.reference_length_mm?,
+        };
+        Some(scene::WearLaw::Power(law.power_law()))
+    },
+};

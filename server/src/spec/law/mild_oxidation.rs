@@ -1,62 +1,56 @@
 //! Mild oxidational wear at moderate speeds.
 
-use api::spec::WearLaw;
-use solver::scene::{self, MildOxidation, SpeedLaw, SurfaceState};
+use std::ops::RangeInclusive;
+
+use solver::scene::{self, MildOxidation, SpeedLaw};
 
 use super::oxidation::{
-    ACTIVATION_ENERGY_J_MOL, ARRHENIUS_CONSTANT, CONSTANT, LENGTH_UM, required, surface,
+    ACTIVATION_ENERGY_J_MOL, ARRHENIUS_CONSTANT, LENGTH_UM, REQUIRED, TEMPERATURE,
 };
-use crate::spec::diagnostics::Diagnostics;
-use crate::spec::law::wearing_side::WearingSide;
+use crate::spec::law::definition::{
+    ByFriction, FieldGroup, LawDefinition, Scaling, State, each, number,
+};
+use crate::spec::law::values::Values;
+use crate::spec::law::wear_coefficient::HARDNESS;
 
-/// The constants of the law.
-pub(super) const CONSTANTS: [&str; 4] = [
-    "activation_energy_j_mol",
-    "critical_film_um",
-    "arrhenius_constant_m2_s",
-    "oxidation_constant",
-];
+/// The constant C, -.
+const CONSTANT: RangeInclusive<f64> = 1e-12..=1e3;
 
-/// Resolves the law of a specification.
-pub(super) fn resolve(
-    side: &WearingSide<'_>,
-    given: &WearLaw,
-    diagnostics: &mut Diagnostics,
-) -> (WearLaw, Option<scene::WearLaw>) {
-    let own = ["law", "hardness_mpa", "contact_temperature_c"];
-    let fields: Vec<&str> = own.iter().chain(&CONSTANTS).copied().collect();
-    diagnostics.check_fields(&side.pointer, given, &fields, "mild_oxidation");
-    let mut filled = given.clone();
-    let surface = surface(side, given, &mut filled, diagnostics);
-    let law = constants(side, given, diagnostics);
-    let law = surface.map(|surface| scene::WearLaw::OfSpeed(SpeedLaw::MildOxidation(law(surface))));
-    (filled, law)
-}
+pub(super) const CONSTANTS: FieldGroup = FieldGroup {
+    numbers: &[
+        number!(oxidation_constant, "C", CONSTANT, REQUIRED),
+        number!(arrhenius_constant_m2_s, "A0", ARRHENIUS_CONSTANT, REQUIRED)
+            .scaled(Scaling::Proportional),
+        number!(
+            activation_energy_j_mol,
+            "Q0",
+            ACTIVATION_ENERGY_J_MOL,
+            REQUIRED
+        ),
+        number!(critical_film_um, "Zc", LENGTH_UM, REQUIRED),
+    ],
+    resolve: each,
+};
 
-/// The law by its surface.
-pub(super) fn constants(
-    side: &WearingSide<'_>,
-    given: &WearLaw,
-    diagnostics: &mut Diagnostics,
-) -> impl Fn(SurfaceState) -> MildOxidation + use<> {
-    let mut constant = |field, value, range| required(side, (field, value), range, diagnostics);
-    let c = constant("oxidation_constant", given.oxidation_constant, &CONSTANT);
-    let arrhenius_m2_s = constant(
-        "arrhenius_constant_m2_s",
-        given.arrhenius_constant_m2_s,
-        &ARRHENIUS_CONSTANT,
-    );
-    let activation_j_mol = constant(
-        "activation_energy_j_mol",
-        given.activation_energy_j_mol,
-        &ACTIVATION_ENERGY_J_MOL,
-    );
-    let film_um = constant("critical_film_um", given.critical_film_um, &LENGTH_UM);
-    move |surface| MildOxidation {
-        constant: c,
-        arrhenius_m2_s,
-        activation_j_mol,
-        film_um,
-        surface,
-    }
+pub(super) const DEFINITION: LawDefinition = LawDefinition {
+    formula: "dh = K p |ds|/H, K = C^2 A0 exp(-Q0/(R T))/(Zc v)",
+    states: &[State::Speed, State::Temperature],
+    friction: ByFriction::Independent,
+    groups: &[HARDNESS, TEMPERATURE, CONSTANTS],
+    choices: &[],
+    engine_law: |values| {
+        let law = SpeedLaw::MildOxidation(mild_oxidation(values)?);
+        Some(scene::WearLaw::OfSpeed(law))
+    },
+};
+
+pub(super) fn mild_oxidation(values: &Values<'_>) -> Option<MildOxidation> {
+    let law = &values.law;
+    Some(MildOxidation {
+        constant: law.oxidation_constant?,
+        arrhenius_m2_s: law.arrhenius_constant_m2_s?,
+        activation_j_mol: law.activation_energy_j_mol?,
+        film_um: law.critical_film_um?,
+        surface: values.surface()?,
+    })
 }

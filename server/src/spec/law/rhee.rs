@@ -1,45 +1,51 @@
-//! Rhee's law of friction materials: worn depth = K p^a v^b t^c.
+//! Rhee's law of friction materials.
 
-use api::spec::WearLaw;
+use std::ops::RangeInclusive;
+
 use solver::scene::{self, Rhee};
 
-use super::power::{
-    COURSE_EXPONENT, FACTOR, PRESSURE_EXPONENT, SPEED_EXPONENT, check_exponents, required,
+use super::power::{COURSE_EXPONENT, FACTOR, PRESSURE_EXPONENT, REQUIRED, check_exponents};
+use crate::spec::law::definition::{
+    ByFriction, FieldGroup, LawDefinition, Scaling, State, each, number,
 };
-use crate::spec::diagnostics::Diagnostics;
-use crate::spec::law::wearing_side::WearingSide;
 
-/// The fields of the law.
-const FIELDS: [&str; 5] = [
-    "law",
-    "wear_factor",
-    "pressure_exponent",
-    "speed_exponent",
-    "time_exponent",
-];
+/// Exponents of the speed, -.
+const SPEED_EXPONENT: RangeInclusive<f64> = -10.0..=10.0;
 
-/// Resolves the law of a specification.
-pub(super) fn resolve(
-    side: &WearingSide<'_>,
-    given: &WearLaw,
-    diagnostics: &mut Diagnostics,
-) -> (WearLaw, Option<scene::WearLaw>) {
-    diagnostics.check_fields(&side.pointer, given, &FIELDS, "rhee");
-    let mut constant = |field, value, range| required(side, (field, value), range, diagnostics);
-    let law = Rhee {
-        factor: constant("wear_factor", given.wear_factor, &FACTOR),
-        pressure_exponent: constant(
-            "pressure_exponent",
-            given.pressure_exponent,
-            &PRESSURE_EXPONENT,
-        ),
-        speed_exponent: constant("speed_exponent", given.speed_exponent, &SPEED_EXPONENT),
-        time_exponent: constant("time_exponent", given.time_exponent, &COURSE_EXPONENT),
-    };
-    let other = (law.time_exponent, "`time_exponent`");
-    check_exponents(side, given.pressure_exponent, other, diagnostics);
-    (given.clone(), Some(scene::WearLaw::Power(law.power_law())))
-}
+const CONSTANTS: FieldGroup = FieldGroup {
+    numbers: &[
+        number!(wear_factor, "K", FACTOR, REQUIRED).scaled(Scaling::Power(|law| law.time_exponent)),
+        number!(pressure_exponent, "a", PRESSURE_EXPONENT, REQUIRED),
+        number!(speed_exponent, "b", SPEED_EXPONENT, REQUIRED),
+        number!(time_exponent, "c", COURSE_EXPONENT, REQUIRED),
+    ],
+    resolve: |numbers, values, diagnostics| {
+        each(numbers, values, diagnostics);
+        check_exponents(
+            values,
+            values.law.time_exponent,
+            "`time_exponent`",
+            diagnostics,
+        );
+    },
+};
+
+pub(super) const DEFINITION: LawDefinition = LawDefinition {
+    formula: "h = K p^a v^b t^c after a time t of slip",
+    states: &[State::Depth, State::Speed],
+    friction: ByFriction::Independent,
+    groups: &[CONSTANTS],
+    choices: &[],
+    engine_law: |values| {
+        let law = Rhee {
+            factor: values.law.wear_factor?,
+            pressure_exponent: values.law.pressure_exponent?,
+            speed_exponent: values.law.speed_exponent?,
+            time_exponent: values.law.time_exponent?,
+        };
+        Some(scene::WearLaw::Power(law.power_law()))
+    },
+};
 
 #[cfg(test)]
 mod tests {

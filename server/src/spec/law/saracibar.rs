@@ -8,7 +8,7 @@ use crate::spec::law::definition::{Absent, ByFriction, FieldGroup, LawDefinition
 use crate::spec::law::wear_coefficient::K_OVER_H;
 
 /// Coefficient of friction mu0, -: that of a measurement, which is not 0.
-pub(super) const REFERENCE_FRICTION: RangeInclusive<f64> = 1e-3..=2.0;
+const REFERENCE_FRICTION: RangeInclusive<f64> = 1e-3..=2.0;
 
 pub(super) const DEFINITION: LawDefinition = LawDefinition {
     formula: "dh = (k/H) (mu/mu0) p |ds|",

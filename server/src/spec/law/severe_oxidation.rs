@@ -1,89 +1,75 @@
 //! Severe oxidational wear at high speeds.
 
-use api::spec::WearLaw;
-use solver::scene::{self, SevereOxidation, SpeedLaw, SurfaceState};
+use std::ops::RangeInclusive;
 
-use super::oxidation::{
-    CONDUCTIVITY_W_MK, CONTACT_TEMPERATURE_C, FRACTION, LATENT_HEAT_J_M3, LENGTH_UM,
-    ZERO_CELSIUS_K, required, surface,
-};
+use solver::scene::{self, SevereOxidation, SpeedLaw};
+
+use super::oxidation::{CONTACT_TEMPERATURE_C, FRACTION, LENGTH_UM, REQUIRED, TEMPERATURE};
 use crate::spec::diagnostics::Diagnostics;
-use crate::spec::law::wearing_side::WearingSide;
+use crate::spec::law::definition::{
+    ByFriction, FieldGroup, LawDefinition, Scaling, State, each, number,
+};
+use crate::spec::law::values::{Values, ZERO_CELSIUS_K};
+use crate::spec::law::wear_coefficient::HARDNESS;
 
-/// The constants of the law.
-pub(super) const CONSTANTS: [&str; 6] = [
-    "molten_fraction",
-    "latent_heat_j_m3",
-    "heat_share",
-    "oxide_conductivity_w_mk",
-    "oxide_melting_temperature_c",
-    "diffusion_distance_um",
-];
+/// J/m^3; a metre of ice and of the most refractory oxide are 3e8 and 1e10.
+const LATENT_HEAT_J_M3: RangeInclusive<f64> = 1e7..=1e11;
+/// W/(m K).
+const CONDUCTIVITY_W_MK: RangeInclusive<f64> = 1e-3..=1e3;
 
-/// Resolves the law of a specification beside a coefficient of friction.
-pub(super) fn resolve(
-    side: &WearingSide<'_>,
-    given: &WearLaw,
-    friction: f64,
-    diagnostics: &mut Diagnostics,
-) -> (WearLaw, Option<scene::WearLaw>) {
-    let own = ["law", "hardness_mpa", "contact_temperature_c"];
-    let fields: Vec<&str> = own.iter().chain(&CONSTANTS).copied().collect();
-    diagnostics.check_fields(&side.pointer, given, &fields, "severe_oxidation");
-    let mut filled = given.clone();
-    let surface = surface(side, given, &mut filled, diagnostics);
-    let law = constants(side, given, friction, diagnostics);
-    let law =
-        surface.map(|surface| scene::WearLaw::OfSpeed(SpeedLaw::SevereOxidation(law(surface))));
-    (filled, law)
+pub(super) const CONSTANTS: FieldGroup = FieldGroup {
+    numbers: &[
+        number!(molten_fraction, "fm", FRACTION, REQUIRED).scaled(Scaling::Proportional),
+        number!(latent_heat_j_m3, "L", LATENT_HEAT_J_M3, REQUIRED),
+        number!(heat_share, "alpha", FRACTION, REQUIRED),
+        number!(oxide_conductivity_w_mk, "K", CONDUCTIVITY_W_MK, REQUIRED),
+        number!(
+            oxide_melting_temperature_c,
+            "Tm",
+            CONTACT_TEMPERATURE_C,
+            REQUIRED
+        ),
+        number!(diffusion_distance_um, "lf", LENGTH_UM, REQUIRED),
+    ],
+    resolve: |numbers, values, diagnostics| {
+        each(numbers, values, diagnostics);
+        check_melting(values, diagnostics);
+    },
+};
+
+pub(super) const DEFINITION: LawDefinition = LawDefinition {
+    formula: "dh = (fm/L) [alpha mu - K (Tm - T)/(lf v H)]+ p |ds|",
+    states: &[State::Speed, State::Temperature],
+    friction: ByFriction::Growing,
+    groups: &[HARDNESS, TEMPERATURE, CONSTANTS],
+    choices: &[],
+    engine_law: |values| {
+        let law = SpeedLaw::SevereOxidation(severe_oxidation(values)?);
+        Some(scene::WearLaw::OfSpeed(law))
+    },
+};
+
+pub(super) fn severe_oxidation(values: &Values<'_>) -> Option<SevereOxidation> {
+    let law = &values.law;
+    Some(SevereOxidation {
+        molten_fraction: law.molten_fraction?,
+        latent_heat_j_m3: law.latent_heat_j_m3?,
+        heat_share: law.heat_share?,
+        friction: values.friction,
+        conductivity_w_mk: law.oxide_conductivity_w_mk?,
+        melting_k: law.oxide_melting_temperature_c? + ZERO_CELSIUS_K,
+        diffusion_um: law.diffusion_distance_um?,
+        surface: values.surface()?,
+    })
 }
 
-/// The law by its surface, beside a coefficient of friction.
-pub(super) fn constants(
-    side: &WearingSide<'_>,
-    given: &WearLaw,
-    friction: f64,
-    diagnostics: &mut Diagnostics,
-) -> impl Fn(SurfaceState) -> SevereOxidation + use<> {
-    let mut constant = |field, value, range| required(side, (field, value), range, diagnostics);
-    let molten_fraction = constant("molten_fraction", given.molten_fraction, &FRACTION);
-    let latent_heat_j_m3 = constant(
-        "latent_heat_j_m3",
-        given.latent_heat_j_m3,
-        &LATENT_HEAT_J_M3,
-    );
-    let heat_share = constant("heat_share", given.heat_share, &FRACTION);
-    let conductivity_w_mk = constant(
-        "oxide_conductivity_w_mk",
-        given.oxide_conductivity_w_mk,
-        &CONDUCTIVITY_W_MK,
-    );
-    let melting_c = constant(
-        "oxide_melting_temperature_c",
-        given.oxide_melting_temperature_c,
-        &CONTACT_TEMPERATURE_C,
-    );
-    let diffusion_um = constant(
-        "diffusion_distance_um",
-        given.diffusion_distance_um,
-        &LENGTH_UM,
-    );
+/// Adds a fault for a bulk that is not colder than the molten oxide.
+fn check_melting(values: &Values<'_>, diagnostics: &mut Diagnostics) {
+    let (given, side) = (values.given, values.side);
     let bulk = given.contact_temperature_c.unwrap_or(side.surroundings_c);
-    if given
-        .oxide_melting_temperature_c
-        .is_some_and(|melting| melting <= bulk)
-    {
-        let detail = format!("{bulk} is not below the {melting_c} at which the oxide melts");
+    let melting = given.oxide_melting_temperature_c;
+    if let Some(melting) = melting.filter(|melting| *melting <= bulk) {
+        let detail = format!("{bulk} is not below the {melting} at which the oxide melts");
         diagnostics.fault(&side.field("contact_temperature_c"), detail);
-    }
-    move |surface| SevereOxidation {
-        molten_fraction,
-        latent_heat_j_m3,
-        heat_share,
-        friction,
-        conductivity_w_mk,
-        melting_k: melting_c + ZERO_CELSIUS_K,
-        diffusion_um,
-        surface,
     }
 }

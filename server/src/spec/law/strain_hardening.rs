@@ -1,57 +1,55 @@
-//! Wear as creep that hardens by strain: de/dt = C1 p^C2 e^C3 exp(-C4/T), worn depth = t0 e.
+//! Wear as creep that hardens by strain.
 
-use api::spec::WearLaw;
+use std::ops::RangeInclusive;
+
 use solver::scene::{self, StrainHardening};
 
-use super::oxidation;
-use super::power::{
-    ACTIVATION_TEMPERATURE_K, FACTOR, PRESSURE_EXPONENT, REFERENCE_LENGTH_MM, STRAIN_EXPONENT,
-    check_exponents, required,
+use super::oxidation::TEMPERATURE;
+use super::power::{FACTOR, PRESSURE_EXPONENT, REFERENCE_LENGTH_MM, REQUIRED, check_exponents};
+use crate::spec::law::definition::{
+    ByFriction, FieldGroup, LawDefinition, Scaling, State, each, number,
 };
-use crate::spec::diagnostics::Diagnostics;
-use crate::spec::law::wearing_side::WearingSide;
 
-/// The fields of the law.
-const FIELDS: [&str; 7] = [
-    "law",
-    "wear_factor",
-    "pressure_exponent",
-    "strain_exponent",
-    "activation_temperature_k",
-    "contact_temperature_c",
-    "reference_length_mm",
-];
+/// Exponent of the strain, -: from 1 on strain grows without bound in a finite time.
+const STRAIN_EXPONENT: RangeInclusive<f64> = -9.0..=0.9;
+/// K.
+const ACTIVATION_TEMPERATURE_K: RangeInclusive<f64> = 0.0..=1e6;
 
-/// Resolves the law of a specification.
-pub(super) fn resolve(
-    side: &WearingSide<'_>,
-    given: &WearLaw,
-    diagnostics: &mut Diagnostics,
-) -> (WearLaw, Option<scene::WearLaw>) {
-    diagnostics.check_fields(&side.pointer, given, &FIELDS, "strain_hardening");
-    let temperature = oxidation::temperature(side, given, diagnostics);
-    let mut constant = |field, value, range| required(side, (field, value), range, diagnostics);
-    let law = StrainHardening {
-        factor: constant("wear_factor", given.wear_factor, &FACTOR),
-        pressure_exponent: constant(
-            "pressure_exponent",
-            given.pressure_exponent,
-            &PRESSURE_EXPONENT,
+const CONSTANTS: FieldGroup = FieldGroup {
+    numbers: &[
+        number!(wear_factor, "C1", FACTOR, REQUIRED).scaled(Scaling::Proportional),
+        number!(pressure_exponent, "C2", PRESSURE_EXPONENT, REQUIRED),
+        number!(strain_exponent, "C3", STRAIN_EXPONENT, REQUIRED),
+        number!(
+            activation_temperature_k,
+            "C4",
+            ACTIVATION_TEMPERATURE_K,
+            REQUIRED
         ),
-        strain_exponent: constant("strain_exponent", given.strain_exponent, &STRAIN_EXPONENT),
-        activation_k: constant(
-            "activation_temperature_k",
-            given.activation_temperature_k,
-            &ACTIVATION_TEMPERATURE_K,
-        ),
-        temperature,
-        length_mm: constant(
-            "reference_length_mm",
-            given.reference_length_mm,
-            &REFERENCE_LENGTH_MM,
-        ),
-    };
-    let other = (1.0 - law.strain_exponent, "1 - `strain_exponent`");
-    check_exponents(side, given.pressure_exponent, other, diagnostics);
-    (given.clone(), Some(scene::WearLaw::Power(law.power_law())))
-}
+        number!(reference_length_mm, "t0", REFERENCE_LENGTH_MM, REQUIRED),
+    ],
+    resolve: |numbers, values, diagnostics| {
+        each(numbers, values, diagnostics);
+        let other = values.law.strain_exponent.map(|strain| 1.0 - strain);
+        check_exponents(values, other, "1 - `strain_exponent`", diagnostics);
+    },
+};
+
+pub(super) const DEFINITION: LawDefinition = LawDefinition {
+    formula: "h = t0 e, de/dt = C1 p^C2 e^C3 exp(-C4/T), also where the contact sticks",
+    states: &[State::Depth, State::Time, State::Temperature],
+    friction: ByFriction::Independent,
+    groups: &[TEMPERATURE, CONSTANTS],
+    choices: &[],
+    engine_law: |values| {
+        let law = StrainHardening {
+            factor: values.law.wear_factor?,
+            pressure_exponent: values.law.pressure_exponent?,
+            strain_exponent: values.law.strain_exponent?,
+            activation_k: values.law.activation_temperature_k?,
+            temperature: values.temperature(),
+            length_mm: values.law.reference_length_mm?,
+        };
+        Some(scene::WearLaw::Power(law.power_law()))
+    },
+};

@@ -1,7 +1,12 @@
 //! Values of a wear law while it is resolved.
 
-use crate::spec::law::wearing_side::WearingSide;
 use api::spec::WearLaw;
+use solver::scene::{SurfaceState, Temperature};
+
+use crate::spec::law::wearing_side::WearingSide;
+
+/// Kelvin at 0 °C.
+pub(super) const ZERO_CELSIUS_K: f64 = 273.15;
 
 /// A law of a side, beside a coefficient of friction.
 pub(super) struct Values<'a> {
@@ -30,6 +35,22 @@ impl<'a> Values<'a> {
             (Some(k), None) => Some(k / self.law.hardness_mpa?),
             (None, ratio) => ratio,
             (Some(_), Some(_)) => None,
+        }
+    }
+
+    /// Hardness and temperature of the surface.
+    pub(super) fn surface(&self) -> Option<SurfaceState> {
+        Some(SurfaceState {
+            hardness_mpa: self.law.hardness_mpa?,
+            temperature: self.temperature(),
+        })
+    }
+
+    /// The temperature of the contact as given, or that of the surroundings, over which friction and current heat it.
+    pub(super) fn temperature(&self) -> Temperature {
+        match self.law.contact_temperature_c {
+            Some(celsius) => Temperature::OfContact(celsius + ZERO_CELSIUS_K),
+            None => Temperature::OfSurroundings(self.side.surroundings_c + ZERO_CELSIUS_K),
         }
     }
 }

@@ -3,19 +3,18 @@
 
 use std::ops::RangeInclusive;
 
-use api::spec::{Provenance, WearLaw};
+use api::spec::Provenance;
 
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::law::definition::{Absent, FieldGroup, Number, Scaling, number};
 use crate::spec::law::values::Values;
-use crate::spec::law::wearing_side::WearingSide;
 use crate::spec::materials;
 use crate::spec::unit;
 
 /// Wear coefficient k, -: from a perfect film (1e-12) to certain removal.
 pub(super) const K: RangeInclusive<f64> = 0.0..=1.0;
 /// k/H, 1/MPa.
-pub(super) const K_OVER_H_PER_MPA: RangeInclusive<f64> = 0.0..=1.0;
+const K_OVER_H_PER_MPA: RangeInclusive<f64> = 0.0..=1.0;
 
 const COEFFICIENT: Number = number!(
     k,
@@ -44,6 +43,12 @@ pub(super) const K_OVER_H: FieldGroup = FieldGroup {
     resolve: |_, values, diagnostics| k_over_h(values, diagnostics),
 };
 
+/// The hardness of a wearing surface: given, or the material's.
+pub(super) const HARDNESS: FieldGroup = FieldGroup {
+    numbers: &[HARDNESS_MPA],
+    resolve: |_, values, diagnostics| hardness(values, diagnostics),
+};
+
 fn k_over_h(values: &mut Values<'_>, diagnostics: &mut Diagnostics) {
     let side = values.side;
     let ratio_pointer = side.field("k_over_h_per_mpa");
@@ -62,46 +67,25 @@ fn k_over_h(values: &mut Values<'_>, diagnostics: &mut Diagnostics) {
         }
         (Some(_), None) => {
             COEFFICIENT.resolve(values, diagnostics);
-            values.law.hardness_mpa = hardness(side, values.given, diagnostics);
+            hardness(values, diagnostics);
         }
     }
 }
 
-/// Resolves k and the hardness of a law that takes no ratio of them; returns the law with its hardness filled in.
-pub(super) fn with_hardness(
-    side: &WearingSide<'_>,
-    given: &WearLaw,
-    diagnostics: &mut Diagnostics,
-) -> WearLaw {
-    let needs = "write `k`, beside the hardness of the law or of the material";
-    diagnostics.required(&side.field("k"), given.k, &K, needs);
-    WearLaw {
-        hardness_mpa: hardness(side, given, diagnostics),
-        ..given.clone()
-    }
-}
-
-/// The hardness of a wearing surface: given, or the material's.
-pub(super) fn hardness(
-    side: &WearingSide<'_>,
-    given: &WearLaw,
-    diagnostics: &mut Diagnostics,
-) -> Option<f64> {
-    let pointer = side.field("hardness_mpa");
-    match (given.hardness_mpa, side.hardness_mpa()) {
-        (Some(hardness), _) => {
-            diagnostics.provenance(&pointer, Provenance::Given);
-            diagnostics.check_unit(&pointer, Some(hardness), &unit::HARDNESS_MPA);
-            Some(diagnostics.check_range(&pointer, hardness, &materials::HARDNESS_MPA))
+fn hardness(values: &mut Values<'_>, diagnostics: &mut Diagnostics) {
+    let pointer = values.side.field("hardness_mpa");
+    match (values.given.hardness_mpa, values.side.hardness_mpa()) {
+        (given @ Some(_), _) => {
+            diagnostics.check_unit(&pointer, given, &unit::HARDNESS_MPA);
+            HARDNESS_MPA.resolve(values, diagnostics);
         }
-        (None, Some(hardness)) => {
+        (None, of_material @ Some(_)) => {
             diagnostics.provenance(&pointer, Provenance::Typical);
-            Some(hardness)
+            values.law.hardness_mpa = of_material;
         }
         (None, None) => {
             let detail = "neither the law nor the material states a hardness";
             diagnostics.missing(&pointer, detail);
-            None
         }
     }
 }
