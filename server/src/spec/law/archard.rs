@@ -21,6 +21,7 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
             k_over_h_per_mpa: values.k_over_h_per_mpa()?,
         })
     },
+    outside_range: None,
 };
 
 /// The coefficients that a side has where its specification gives none.

@@ -52,6 +52,7 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
             course,
         }))
     },
+    outside_range: None,
 };
 
 /// Resolves the course, and the dose of one that is not steady.

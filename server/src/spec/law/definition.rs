@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use api::spec::{Provenance, WearLaw, WearLawName};
-use solver::scene;
+use solver::scene::{self, Scene};
 
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::law::values::Values;
@@ -23,6 +23,8 @@ pub struct LawDefinition {
     pub choices: &'static [&'static str],
     /// The engine's law of resolved values; `None` without a value that it depends on.
     pub(super) engine_law: fn(&Values<'_>) -> Option<scene::WearLaw>,
+    /// Warning of a scene outside of the law's range.
+    pub(in crate::spec) outside_range: Option<fn(scene::WearLaw, &Scene) -> Option<String>>,
 }
 
 /// A state of the contact that a rate depends on.

@@ -43,4 +43,5 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
         };
         Some(scene::WearLaw::Power(law.power_law()))
     },
+    outside_range: None,
 };

@@ -7,7 +7,7 @@ use solver::law::wear::speed::SLOWEST_MM_S;
 use solver::scene::{self, Mechanism, SpeedLaw};
 
 use super::mild_oxidation::{self, mild_oxidation};
-use super::oxidation::TEMPERATURE;
+use super::oxidation::{SMALLEST, TEMPERATURE, implausible};
 use super::severe_oxidation::{self, severe_oxidation};
 use super::wear_coefficient::{HARDNESS, K};
 use crate::spec::law::definition::{
@@ -59,4 +59,22 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
             severe: severe_oxidation(values)?,
         })))
     },
+    outside_range: Some(|law, scene| {
+        let scene::WearLaw::OfSpeed(SpeedLaw::Mechanism(law)) = law else {
+            return None;
+        };
+        let mean = scene.mean_speed_mm_s();
+        let coefficient = law.mild.coefficient_at(mean.max(law.transition_mm_s));
+        if coefficient < SMALLEST {
+            return implausible(coefficient, mean);
+        }
+        let slowest = law.severe.slowest_mm_s();
+        (slowest <= law.transition_mm_s).then(|| {
+            format!(
+                "the oxide melts from {slowest:.4} mm/s on, below the transition at {:.4} mm/s: mild oxidational wear is never the \
+                 mechanism",
+                law.transition_mm_s
+            )
+        })
+    }),
 };

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use solver::scene::{self, MildOxidation, SpeedLaw};
 
 use super::oxidation::{
-    ACTIVATION_ENERGY_J_MOL, ARRHENIUS_CONSTANT, LENGTH_UM, REQUIRED, TEMPERATURE,
+    ACTIVATION_ENERGY_J_MOL, ARRHENIUS_CONSTANT, LENGTH_UM, REQUIRED, TEMPERATURE, implausible,
 };
 use crate::spec::law::definition::{
     ByFriction, FieldGroup, LawDefinition, Scaling, State, each, number,
@@ -42,6 +42,13 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
         let law = SpeedLaw::MildOxidation(mild_oxidation(values)?);
         Some(scene::WearLaw::OfSpeed(law))
     },
+    outside_range: Some(|law, scene| {
+        let scene::WearLaw::OfSpeed(SpeedLaw::MildOxidation(law)) = law else {
+            return None;
+        };
+        let mean = scene.mean_speed_mm_s();
+        implausible(law.coefficient_at(mean), mean)
+    }),
 };
 
 pub(super) fn mild_oxidation(values: &Values<'_>) -> Option<MildOxidation> {

@@ -6,6 +6,7 @@ use solver::scene::{self, Quinn, SpeedLaw};
 
 use super::oxidation::{
     ACTIVATION_ENERGY_J_MOL, ARRHENIUS_CONSTANT, FRACTION, LENGTH_UM, REQUIRED, TEMPERATURE,
+    implausible,
 };
 use crate::spec::law::definition::{
     ByFriction, FieldGroup, LawDefinition, Scaling, State, each, number,
@@ -56,4 +57,11 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
             surface: values.surface()?,
         })))
     },
+    outside_range: Some(|law, scene| {
+        let scene::WearLaw::OfSpeed(SpeedLaw::Quinn(law)) = law else {
+            return None;
+        };
+        let mean = scene.mean_speed_mm_s();
+        implausible(law.coefficient_at(mean), mean)
+    }),
 };

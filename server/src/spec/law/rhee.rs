@@ -45,6 +45,7 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
         };
         Some(scene::WearLaw::Power(law.power_law()))
     },
+    outside_range: None,
 };
 
 #[cfg(test)]

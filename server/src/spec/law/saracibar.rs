@@ -36,4 +36,5 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
             reference_friction: values.given.reference_friction?,
         })
     },
+    outside_range: None,
 };

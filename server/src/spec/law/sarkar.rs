@@ -17,4 +17,5 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
             friction: values.friction,
         })
     },
+    outside_range: None,
 };

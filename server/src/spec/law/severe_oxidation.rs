@@ -47,6 +47,17 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
         let law = SpeedLaw::SevereOxidation(severe_oxidation(values)?);
         Some(scene::WearLaw::OfSpeed(law))
     },
+    outside_range: Some(|law, scene| {
+        let scene::WearLaw::OfSpeed(SpeedLaw::SevereOxidation(law)) = law else {
+            return None;
+        };
+        let (slowest, fastest) = (law.slowest_mm_s(), scene.fastest_speed_mm_s());
+        (fastest <= slowest).then(|| {
+            format!(
+                "nothing wears: the oxide melts from {slowest:.4} mm/s on, and the motion has {fastest:.4} mm/s at most"
+            )
+        })
+    }),
 };
 
 pub(super) fn severe_oxidation(values: &Values<'_>) -> Option<SevereOxidation> {

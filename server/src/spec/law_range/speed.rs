@@ -1,15 +1,13 @@
-//! Warnings where an oxidational wear law is used outside of its range of speed and temperature.
+//! Warnings where a wear law is used outside of the range of its definition, or an oxidational one below the temperature of the
+//! surroundings.
 
 use api::problem::Fault;
 use api::spec::{Spec, WearLaw as Given};
-use solver::law::wear::speed::SLOWEST_MM_S;
-use solver::scene::{Scene, SpeedLaw, WearLaw};
+use solver::scene::{Scene, WearLaw};
 use solver::sides::Side;
 
 use crate::spec::environment;
-
-/// Wear coefficient below which no wear has been measured; those of lubricated contacts end at 1e-9.
-const SMALLEST: f64 = 1e-12;
+use crate::spec::law::definition;
 
 /// The warnings of a resolved specification.
 pub(super) fn warnings(spec: &Spec, scene: &Scene) -> Vec<Fault> {
@@ -19,69 +17,26 @@ pub(super) fn warnings(spec: &Spec, scene: &Scene) -> Vec<Fault> {
     ];
     let given = environment::laws(spec);
     let warnings = laws.into_iter().flat_map(|(side, law)| {
-        let Some(WearLaw::OfSpeed(law)) = law else {
+        let (Some(law), Some(given)) = (law, *given.of(side)) else {
             return Vec::new();
         };
         let pointer = format!("/interface/wear/{}", side.name());
         let mut found = Vec::new();
-        found.extend(by_speed(scene, law).map(|detail| Fault::new(&pointer, detail)));
-        let cold = given
-            .of(side)
-            .and_then(|law| colder_than_surroundings(spec, law));
-        found.extend(
-            cold.map(|detail| Fault::new(format!("{pointer}/contact_temperature_c"), detail)),
-        );
+        if let Some(outside) = given
+            .law
+            .known()
+            .and_then(|name| definition(name).outside_range)
+        {
+            found.extend(outside(law, scene).map(|detail| Fault::new(&pointer, detail)));
+        }
+        if let WearLaw::OfSpeed(_) = law {
+            let pointer = format!("{pointer}/contact_temperature_c");
+            let cold = colder_than_surroundings(spec, given);
+            found.extend(cold.map(|detail| Fault::new(pointer, detail)));
+        }
         found
     });
     warnings.collect()
-}
-
-fn by_speed(scene: &Scene, law: SpeedLaw) -> Option<String> {
-    let mean = scene.mean_speed_mm_s();
-    let coefficient = match law {
-        SpeedLaw::Mechanism(law)
-            if law.mild.coefficient_at(mean.max(law.transition_mm_s)) < SMALLEST =>
-        {
-            law.mild.coefficient_at(mean.max(law.transition_mm_s))
-        }
-        SpeedLaw::Mechanism(law) => {
-            let slowest = law.severe.slowest_mm_s();
-            return (slowest <= law.transition_mm_s).then(|| {
-                format!(
-                    "the oxide melts from {slowest:.4} mm/s on, below the transition at {:.4} mm/s: mild oxidational wear is never the \
-                     mechanism",
-                    law.transition_mm_s
-                )
-            });
-        }
-        SpeedLaw::Quinn(law) => law.coefficient_at(mean),
-        SpeedLaw::MildOxidation(law) => law.coefficient_at(mean),
-        SpeedLaw::SevereOxidation(law) => {
-            let (slowest, fastest) = (law.slowest_mm_s(), scene.fastest_speed_mm_s());
-            return (fastest <= slowest).then(|| {
-                format!(
-                    "nothing wears: the oxide melts from {slowest:.4} mm/s on, and the motion has {fastest:.4} mm/s at most"
-                )
-            });
-        }
-    };
-    if coefficient < SMALLEST {
-        return Some(format!(
-            "the law gives a wear coefficient of {coefficient:.0e}, which is no wear: its temperature is that of the surroundings and of \
-             the heat of the contact as a whole unless `contact_temperature_c` states that of the asperities, which flashes heat"
-        ));
-    }
-    if coefficient > 1.0 {
-        return Some(format!(
-            "the law gives {coefficient:.2} particles for each encounter of asperities at {mean:.4} mm/s: at most one can come off"
-        ));
-    }
-    (mean < SLOWEST_MM_S).then(|| {
-        format!(
-            "the contact slides at {mean:.4} mm/s on average: oxidational wear is that of asperities that friction heats, from some \
-             {SLOWEST_MM_S} mm/s on for steels; below, Archard's law holds"
-        )
-    })
 }
 
 fn colder_than_surroundings(spec: &Spec, law: &Given) -> Option<String> {
