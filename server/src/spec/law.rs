@@ -299,3 +299,6 @@ fn base_below_plating(side: &WearingSide<'_>) -> Option<Sourced<ArchardPreset>> 
         hardness_mpa: material.properties.hardness_mpa?,
     }))
 }
+
+#[cfg(test)]
+pub(in crate::spec) mod tests;

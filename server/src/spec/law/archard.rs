@@ -22,6 +22,8 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
         })
     },
     outside_range: None,
+    #[cfg(test)]
+    example: r#""k":0.002,"hardness_mpa":1700"#,
 };
 
 /// The coefficients that a side has where its specification gives none.

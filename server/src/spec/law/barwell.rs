@@ -53,6 +53,8 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
         }))
     },
     outside_range: None,
+    #[cfg(test)]
+    example: r#""k":0.002,"hardness_mpa":1700,"course":"decelerating","characteristic_dose_mpa_mm":1000"#,
 };
 
 /// Resolves the course, and the dose of one that is not steady.

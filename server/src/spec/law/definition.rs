@@ -25,6 +25,9 @@ pub struct LawDefinition {
     pub(super) engine_law: fn(&Values<'_>) -> Option<scene::WearLaw>,
     /// Warning of a scene outside of the law's range.
     pub(in crate::spec) outside_range: Option<fn(scene::WearLaw, &Scene) -> Option<String>>,
+    /// Fields of a part that wears, as JSON.
+    #[cfg(test)]
+    pub(in crate::spec) example: &'static str,
 }
 
 /// A state of the contact that a rate depends on.

@@ -33,4 +33,6 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
         })
     },
     outside_range: None,
+    #[cfg(test)]
+    example: r#""energy_coefficient_mm3_per_j":2e-3"#,
 };

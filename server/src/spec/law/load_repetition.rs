@@ -44,4 +44,6 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
         Some(scene::WearLaw::Power(law.power_law()))
     },
     outside_range: None,
+    #[cfg(test)]
+    example: r#""wear_factor":1e-7,"pressure_exponent":1.2,"repetition_exponent":0.8,"reference_length_mm":0.01"#,
 };

@@ -77,4 +77,8 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
             )
         })
     }),
+    #[cfg(test)]
+    example: r#""k":0.002,"hardness_mpa":1700,"oxidation_constant":3.4e-4,"arrhenius_constant_m2_s":1e6,
+        "activation_energy_j_mol":138e3,"critical_film_um":10,"molten_fraction":0.1,"latent_heat_j_m3":2e9,"heat_share":0.5,
+        "oxide_conductivity_w_mk":3.2,"oxide_melting_temperature_c":1487,"contact_temperature_c":1400,"diffusion_distance_um":10"#,
 };

@@ -49,6 +49,9 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
         let mean = scene.mean_speed_mm_s();
         implausible(law.coefficient_at(mean), mean)
     }),
+    #[cfg(test)]
+    example: r#""oxidation_constant":3.4e-4,"arrhenius_constant_m2_s":1e6,"activation_energy_j_mol":138e3,"critical_film_um":10,
+        "contact_temperature_c":600,"hardness_mpa":1700"#,
 };
 
 pub(super) fn mild_oxidation(values: &Values<'_>) -> Option<MildOxidation> {

@@ -64,4 +64,7 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
         let mean = scene.mean_speed_mm_s();
         implausible(law.coefficient_at(mean), mean)
     }),
+    #[cfg(test)]
+    example: r#""activation_energy_j_mol":96e3,"critical_film_um":3,"asperity_diameter_um":5,"arrhenius_constant_kg2_m4s":1e2,
+        "oxide_density_kg_m3":5200,"oxygen_fraction":0.2885,"hardness_mpa":1700,"contact_temperature_c":400"#,
 };

@@ -46,6 +46,8 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
         Some(scene::WearLaw::Power(law.power_law()))
     },
     outside_range: None,
+    #[cfg(test)]
+    example: r#""wear_factor":1e-7,"pressure_exponent":1.2,"speed_exponent":0.9,"time_exponent":1.1"#,
 };
 
 #[cfg(test)]

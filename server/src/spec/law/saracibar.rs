@@ -37,4 +37,6 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
         })
     },
     outside_range: None,
+    #[cfg(test)]
+    example: r#""k":0.002,"hardness_mpa":1700,"reference_friction":0.5"#,
 };

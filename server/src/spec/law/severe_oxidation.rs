@@ -58,6 +58,9 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
             )
         })
     }),
+    #[cfg(test)]
+    example: r#""molten_fraction":0.1,"latent_heat_j_m3":2e9,"heat_share":0.5,"oxide_conductivity_w_mk":3.2,
+        "oxide_melting_temperature_c":1487,"contact_temperature_c":1400,"diffusion_distance_um":10,"hardness_mpa":1700"#,
 };
 
 pub(super) fn severe_oxidation(values: &Values<'_>) -> Option<SevereOxidation> {

@@ -53,4 +53,7 @@ pub(super) const DEFINITION: LawDefinition = LawDefinition {
         Some(scene::WearLaw::Power(law.power_law()))
     },
     outside_range: None,
+    #[cfg(test)]
+    example: r#""wear_factor":2.0,"pressure_exponent":1.6,"strain_exponent":-0.5,"activation_temperature_k":6000,
+        "reference_length_mm":0.01"#,
 };

@@ -1,5 +1,7 @@
 //! Every range of the schema is enforced.
 
+use api::spec::WearLawName;
+
 use super::*;
 use crate::spec;
 use crate::spec::Refused;
@@ -26,37 +28,23 @@ fn criterion(field: &str, value: f64) -> String {
     format!(r#"{{"kind":"{kind}","{field}":{value}}}"#)
 }
 
-/// A wear law that has a field, and what else it needs beside it.
-fn law_with(field: &str) -> (&'static str, &'static str) {
-    match field {
-        "hardness_mpa" => ("archard", r#""k":0.1,"#),
-        "k" | "k_over_h_per_mpa" => ("archard", ""),
-        "measured_at_hz" => ("archard", r#""k":0.1,"hardness_mpa":1000,"#),
-        "reference_friction" => ("saracibar", r#""k":0.1,"#),
-        "energy_coefficient_mm3_per_j" => ("dissipated_energy", ""),
-        "characteristic_dose_mpa_mm" => ("barwell", ""),
-        "arrhenius_constant_m2_s" | "oxidation_constant" => ("mild_oxidation", ""),
-        "contact_temperature_c"
-        | "activation_energy_j_mol"
-        | "critical_film_um"
-        | "asperity_diameter_um"
-        | "arrhenius_constant_kg2_m4s"
-        | "oxide_density_kg_m3"
-        | "oxygen_fraction" => ("quinn", ""),
-        "transition_speed_mm_s" => ("oxidation", ""),
-        "molten_fraction"
-        | "latent_heat_j_m3"
-        | "heat_share"
-        | "oxide_conductivity_w_mk"
-        | "oxide_melting_temperature_c"
-        | "diffusion_distance_um" => ("severe_oxidation", ""),
-        "wear_factor" | "pressure_exponent" | "speed_exponent" | "time_exponent" => ("rhee", ""),
-        "repetition_exponent" => ("load_repetition", ""),
-        "strain_exponent" | "activation_temperature_k" | "reference_length_mm" => {
-            ("strain_hardening", "")
-        }
-        _ => panic!("{field} has no sample"),
+/// A wear law with a value at a field.
+fn law_with(field: &str, value: f64) -> Value {
+    let takes = |law: &WearLawName| {
+        let mut numbers = law::definition(*law).numbers();
+        numbers.any(|number| number.field == field)
+    };
+    // Every law takes a frequency of its measurement.
+    let taking = WearLawName::ALL.into_iter().find(takes);
+    let name = taking.unwrap_or(WearLawName::Archard);
+    let example = format!("{{{}}}", law::definition(name).example);
+    let mut law: Value = serde_json::from_str(&example).expect("JSON");
+    if field == "k_over_h_per_mpa" {
+        law = json!({});
     }
+    law["law"] = json!(name);
+    law[field] = json!(value);
+    law
 }
 
 /// A specification with a value at a field of an object, and the pointer to it.
@@ -108,12 +96,10 @@ fn with(object: &str, field: &str, value: f64) -> (String, String) {
         ),
         "FrictionAtCycle" | "FrictionAtDose" => friction_table(object, field, value),
         "WearLaw" => {
-            let (law, other) = law_with(field);
+            let law = law_with(field, value);
             (
                 "/interface/wear/receptacle",
-                format!(
-                    r#""interface":{{"wear":{{"receptacle":{{"law":"{law}",{other}"{field}":{value}}}}}}}"#
-                ),
+                format!(r#""interface":{{"wear":{{"receptacle":{law}}}}}"#),
             )
         }
         "PlatingLayer" => (
