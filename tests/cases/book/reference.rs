@@ -1,5 +1,8 @@
-//! The reference pages: fields of a specification and columns of the wear history from the OpenAPI document, commands from their help.
+//! The reference pages: fields of a specification and columns of the wear history from the OpenAPI document, wear laws from their
+//! definitions, commands from their help.
 //! `FRETWEAR_WRITE_BOOK=1` writes the pages again.
+
+mod wear_laws;
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -192,6 +195,7 @@ fn commands() -> String {
 fn reference_pages_are_those_of_the_program() {
     let pages = [
         ("fields", fields()),
+        ("wear-laws", wear_laws::page()),
         ("columns", columns()),
         ("commands", commands()),
     ];
