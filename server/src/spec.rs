@@ -36,6 +36,7 @@ pub(crate) mod scatter;
 pub(crate) mod schema;
 mod sourced;
 mod spots;
+mod stages;
 mod stop;
 mod suggestion;
 mod system;
@@ -49,11 +50,12 @@ use solver::scene::Scene;
 
 use diagnostics::Diagnostics;
 pub(crate) use diagnostics::NAME_LIMIT;
-use filled::{Filled, fill, scene_of};
+use filled::{Filled, scene_of};
 pub(crate) use materials::name as material_name;
 pub(crate) use motion::CYCLES;
 pub(crate) use names::{LABEL_LIMIT, LABEL_TEXT_LIMIT};
 pub(crate) use rated_life::RatedMatings;
+use stages::{Bodies, Loading, Numerics};
 pub(crate) use suggestion::did_you_mean;
 pub(crate) use system::definition as system_definition;
 
@@ -131,69 +133,86 @@ pub fn resolve(spec: &Spec) -> Result<Resolved, Vec<Fault>> {
     let Some(kind) = diagnostics.enum_member("/system/kind", &spec.system.kind) else {
         return Err(diagnostics.into_faults());
     };
-    let Filled {
-        spec: mut filled,
-        mut scene,
-        chosen,
-        movement,
-        resistance_lacks,
-    } = fill(spec, kind, &mut diagnostics);
+    let bodies = Bodies::resolve(kind, spec, &mut diagnostics);
+    let loading = Loading::resolve(&bodies, spec, &mut diagnostics);
+    let numerics = Numerics::resolve(&loading, spec, &mut diagnostics);
+    let mut filled = filled::resolve(&numerics, &mut diagnostics);
     if !diagnostics.is_clean() {
         return Err(diagnostics.into_faults());
     }
-    let strains_cause = || {
-        cause::of_fault(spec, kind, "/load", |spec| {
-            scene_of(spec, kind)
-                .is_some_and(|scene| effects::has_small_strains(&spec.effects, &scene))
-        })
-    };
-    effects::check(&spec.effects, &scene, strains_cause, &mut diagnostics);
-    let is_point = scene.dimension.point().is_some();
-    let layout = match (!is_point).then(|| Layout::of(&scene)).transpose() {
-        Ok(layout) => layout,
-        Err(error) => {
-            let pointer = cause::of_fault(spec, kind, "/system", |spec| {
-                scene_of(spec, kind).is_some_and(|scene| Layout::of(&scene).is_ok())
-            });
-            diagnostics.fault(&pointer, error.to_string());
-            return Err(diagnostics.into_faults());
-        }
-    };
-    if let Some(layout) = &layout {
-        model::check_size(&scene, layout, &mut diagnostics);
-    }
+    let layout = layout(spec, &numerics, &filled.scene, &mut diagnostics);
     if !diagnostics.is_clean() {
         return Err(diagnostics.into_faults());
     }
-    let mut warnings = diagnostics.warnings().to_vec();
-    let preset = plating_choice::preset_for_motion(spec, (system_definition(kind).preset)());
-    warnings.extend(plating_choice::warnings(spec, &preset));
-    warnings.extend(law_range::warnings(&filled, &scene));
-    warnings.extend(resistance_range::warnings(spec, &scene));
-    warnings.extend(model::warnings(&scene));
-    warnings.extend(effects::warnings(&scene));
-    warnings.extend(rated_life::warnings(kind, filled.motion.as_ref(), &scene));
-    let derived = || movement.all_derived();
-    warnings.extend(changing_friction::warnings_of_derived_slip(
-        derived(),
-        &scene,
-    ));
-    let sticks = derived().filter(|(_, motion)| motion.sticks);
-    warnings.extend(sticks.map(|(pointer, motion)| Fault::new(&pointer, motion.reason.clone())));
-    scene.scattered = scatter::scenes(&filled, &scene, |spec| scene_of(spec, kind));
-    let blocks = blocks::extents(&filled, &movement);
-    filled.provenance = diagnostics.finish()?;
+    let of_values = diagnostics.warnings().iter().cloned();
+    let warnings = of_values.chain(warnings(spec, &loading, &filled));
+    let warnings = warnings.collect();
+    let scattered = scatter::scenes(&filled.spec, &filled.scene, |spec| scene_of(spec, kind));
+    filled.scene.scattered = scattered;
+    let blocks = blocks::extents(&filled.spec, &loading.movement);
+    filled.spec.provenance = diagnostics.finish()?;
     Ok(Resolved {
-        spec: filled,
-        chosen,
+        spec: filled.spec,
+        chosen: filled.chosen,
         kind,
-        scene,
+        scene: filled.scene,
         layout,
-        motion: movement.derived,
+        motion: loading.movement.derived,
         blocks,
-        resistance_lacks,
+        resistance_lacks: filled.resistance_lacks,
         warnings,
     })
+}
+
+/// Checks the scene of a specification against its switches, and places its mesh lines; none of a point contact.
+fn layout(
+    given: &Spec,
+    numerics: &Numerics<'_>,
+    scene: &Scene,
+    diagnostics: &mut Diagnostics,
+) -> Option<Layout> {
+    let strains_cause = || {
+        let is_possible = |scene: &Scene| effects::has_small_strains(&given.effects, scene);
+        cause::of_fault(given, numerics, "/load", is_possible)
+    };
+    effects::check(&given.effects, scene, strains_cause, diagnostics);
+    if scene.dimension.point().is_some() {
+        return None;
+    }
+    match Layout::of(scene) {
+        Ok(layout) => {
+            model::check_size(scene, &layout, diagnostics);
+            Some(layout)
+        }
+        Err(error) => {
+            let is_possible = |scene: &Scene| Layout::of(scene).is_ok();
+            let pointer = cause::of_fault(given, numerics, "/system", is_possible);
+            diagnostics.fault(&pointer, error.to_string());
+            None
+        }
+    }
+}
+
+/// Warnings of a scene without faults.
+fn warnings(given: &Spec, loading: &Loading<'_>, filled: &Filled) -> Vec<Fault> {
+    let Filled { spec, scene, .. } = filled;
+    let bodies = loading.bodies;
+    let mut warnings = plating_choice::warnings(given, &bodies.preset);
+    warnings.extend(law_range::warnings(spec, scene));
+    warnings.extend(resistance_range::warnings(given, scene));
+    warnings.extend(model::warnings(scene));
+    warnings.extend(effects::warnings(scene));
+    warnings.extend(rated_life::warnings(
+        bodies.kind,
+        spec.motion.as_ref(),
+        scene,
+    ));
+    let derived = || loading.movement.all_derived();
+    let of_slip = changing_friction::warnings_of_derived_slip(derived(), scene);
+    warnings.extend(of_slip);
+    let sticks = derived().filter(|(_, motion)| motion.sticks);
+    warnings.extend(sticks.map(|(pointer, motion)| Fault::new(&pointer, motion.reason.clone())));
+    warnings
 }
 
 /// Cycles in the histories of a resolved specification.

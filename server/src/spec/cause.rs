@@ -1,97 +1,91 @@
 //! The field that causes a fault of the whole scene: the given one without which there would be none.
+//!
+//! The given fields are left out one after the other. A trial resolves the stages from the one that reads the field on; those before it
+//! remain. At most 13 trials are made: element size, amplitude, tolerance or preset, load, materials, the six dimensions of a
+//! `cylinder_on_flat`, width and crown.
 
-use api::spec::{Model, Spec, System, SystemKind};
+use api::spec::{Spec, SystemKind};
+use serde_json::Value;
+use solver::scene::Scene;
 
-use crate::spec::system;
+use crate::spec::diagnostics::Diagnostics;
+use crate::spec::stages::{Bodies, Loading, Numerics};
+use crate::spec::{filled, repair, system};
 
-/// A given field: its pointer, and how it is left out.
-type Field = (&'static str, fn(&mut Spec));
-
-/// Fields on which mesh and strains depend, besides the dimensions. The most specific is first.
-const FIELDS: [Field; 6] = [
-    ("/accuracy/overrides/contact_element_mm", |spec| {
-        if let Some(overrides) = &mut spec.accuracy.overrides {
-            overrides.contact_element_mm = None;
-        }
-    }),
-    ("/motion/amplitude_mm", |spec| {
-        if let Some(motion) = &mut spec.motion {
-            motion.amplitude_mm = None;
-        }
-    }),
-    ("/accuracy/tolerance", |spec| spec.accuracy.tolerance = None),
-    ("/accuracy/preset", |spec| spec.accuracy.preset = None),
-    ("/load", |spec| spec.load = None),
-    ("/materials", |spec| {
-        spec.materials = api::spec::Materials::default();
-    }),
+/// Fields on which mesh and strains depend, besides the lengths. The most specific is first.
+const FIELDS: [&str; 6] = [
+    "/accuracy/overrides/contact_element_mm",
+    "/motion/amplitude_mm",
+    "/accuracy/tolerance",
+    "/accuracy/preset",
+    "/load",
+    "/materials",
 ];
-
-/// A length of the model: its name and its field.
-type Length = (&'static str, fn(&mut Model) -> &mut Option<f64>);
 
 /// Lengths of the model, on which strains and mesh depend as on those of the system.
-const LENGTHS: [Length; 4] = [
-    ("radius_z_mm", |model| &mut model.radius_z_mm),
-    ("crown_radius_mm", |model| &mut model.crown_radius_mm),
-    ("width_mm", |model| &mut model.width_mm),
-    ("outer_diameter_mm", |model| &mut model.outer_diameter_mm),
+const LENGTHS: [&str; 4] = [
+    "/model/radius_z_mm",
+    "/model/crown_radius_mm",
+    "/model/width_mm",
+    "/model/outer_diameter_mm",
 ];
 
-/// Returns the pointer of the first given field that, left out, would make a specification possible; another one if none
+/// Returns the pointer of the first given field that, left out, would make the scene of a specification possible; another one if none
 /// alone does.
 pub(super) fn of_fault(
-    spec: &Spec,
-    kind: SystemKind,
+    given: &Spec,
+    numerics: &Numerics<'_>,
     otherwise: &str,
-    is_possible: impl Fn(&Spec) -> bool,
+    is_possible: impl Fn(&Scene) -> bool,
 ) -> String {
-    let is_cause = |leave_out: &dyn Fn(&mut Spec)| {
-        let mut without = spec.clone();
-        leave_out(&mut without);
-        without != *spec && is_possible(&without)
+    let document = serde_json::to_value(given).unwrap_or_default();
+    let is_given = |pointer: &String| document.pointer(pointer).is_some();
+    let fields = fields(numerics.loading.bodies.kind).filter(is_given);
+    let fields: Vec<String> = fields.collect();
+    let is_cause = |pointer: &&String| {
+        let without = without(&document, pointer).filter(|without| without != given);
+        let scene = without.and_then(|without| scene_of(&without, pointer, numerics));
+        scene.is_some_and(|scene| is_possible(&scene))
     };
-    for (pointer, leave_out) in FIELDS {
-        if is_cause(&leave_out) {
-            return pointer.to_owned();
-        }
-    }
-    for (name, field) in system::definition(kind).dimension_fields() {
-        if is_cause(&|spec| *field(&mut spec.system) = None) {
-            return format!("/system/{name}");
-        }
-    }
-    for (name, field) in LENGTHS {
-        let leave_out = |spec: &mut Spec| {
-            if let Some(model) = &mut spec.model {
-                *field(model) = None;
-            }
-        };
-        if is_cause(&leave_out) {
-            return format!("/model/{name}");
-        }
-    }
-    // A model may require the length: nothing shows then that another field is the cause, unless it is given as well.
-    let mut model = spec.model.clone().unwrap_or_default();
-    let given = LENGTHS
-        .iter()
-        .find(|(_, field)| field(&mut model).is_some());
-    match given {
-        Some((name, _)) if !is_given(spec, otherwise) => format!("/model/{name}"),
-        _ => otherwise.to_owned(),
-    }
+    // A model may require a length: nothing shows then that another field is the cause, unless it is given as well.
+    let other = fields.iter().any(|field| field.starts_with(otherwise));
+    let mut lengths = fields.iter().filter(|field| field.starts_with("/model"));
+    let cause = fields.iter().find(is_cause);
+    let cause = cause.or_else(|| lengths.next().filter(|_| !other));
+    cause.map_or(otherwise, String::as_str).to_owned()
 }
 
-/// Returns `true` if a specification says more of a part than its kind.
-fn is_given(spec: &Spec, part: &str) -> bool {
-    match part {
-        "/load" => spec.load.is_some(),
-        _ => {
-            spec.system
-                != System {
-                    kind: spec.system.kind.clone(),
-                    ..System::default()
-                }
-        }
-    }
+/// Fields of a specification of a kind that may be a cause, in the order in which they are left out.
+fn fields(kind: SystemKind) -> impl Iterator<Item = String> {
+    let dimensions = system::definition(kind).dimension_names();
+    let dimensions = dimensions.map(|name| format!("/system/{name}"));
+    let before = FIELDS.into_iter().map(str::to_owned);
+    before
+        .chain(dimensions)
+        .chain(LENGTHS.into_iter().map(str::to_owned))
 }
+
+/// The specification of a document without a field.
+fn without(document: &Value, pointer: &str) -> Option<Spec> {
+    let mut document = document.clone();
+    repair::remove(&mut document, pointer);
+    serde_json::from_value(document).ok()
+}
+
+/// The scene of a specification that differs from resolved stages in a field; none if it has a fault.
+fn scene_of(without: &Spec, field: &str, resolved: &Numerics<'_>) -> Option<Scene> {
+    let mut diagnostics = Diagnostics::default();
+    let of_numerics = field.starts_with("/accuracy");
+    let of_bodies = !of_numerics && !field.starts_with("/motion") && field != "/load";
+    let bodies = resolved.loading.bodies;
+    let changed = of_bodies.then(|| Bodies::resolve(bodies.kind, without, &mut diagnostics));
+    let bodies = changed.as_ref().unwrap_or(bodies);
+    let changed = (!of_numerics).then(|| Loading::resolve(bodies, without, &mut diagnostics));
+    let loading = changed.as_ref().unwrap_or(resolved.loading);
+    let numerics = Numerics::resolve(loading, without, &mut diagnostics);
+    let filled = filled::resolve(&numerics, &mut diagnostics);
+    diagnostics.is_clean().then_some(filled.scene)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,51 +1,39 @@
 //! The contact as an electrical conductor: force, resistivities, hardnesses, spots and films.
 
-use api::spec::{CriterionKind, EnumValue, Material, Model, Spec, Switch};
+use api::spec::{CriterionKind, EnumValue, Material, Model, Spec, Spots, Switch};
 use solver::law::elastic::contact_modulus;
 use solver::law::plating::bottoms;
 use solver::law::softening::REFERENCE_C;
-use solver::scene::{Conduction, Elastic, Electrical, Layer, Metal, MissingProperty, Motion};
+use solver::scene::{Conduction, Electrical, Metal, MissingProperty};
 use solver::sides::Sides;
 
 use crate::spec::diagnostics::Diagnostics;
+use crate::spec::stages::Numerics;
 use crate::spec::{environment, films, materials, plating, spots};
 
 /// Conductors of the contact, and the data missing for their resistance.
 pub(super) struct Conductors {
     /// Electrical model, without the limits of criteria so far.
     pub(super) conduction: Conduction,
+    /// Spots as the resolved specification has them: filled in where the resistance is computed.
+    pub(super) spots: Option<Spots>,
     /// Data missing for a criterion of the resistance, in words.
     pub(super) lacks: Vec<String>,
 }
 
-/// Parts of the scene that the metals depend on.
-#[derive(Clone, Copy)]
-pub(super) struct Bodies<'a> {
-    pub(super) layers: &'a Sides<Vec<Layer>>,
-    pub(super) elastic: &'a Sides<Elastic>,
-    pub(super) motion: Motion,
-}
-
-/// Resolves the conductors of a specification whose materials, laws and load are resolved; fills in its spots where the resistance
-/// is computed.
-pub(super) fn resolve(
-    filled: &mut Spec,
-    bodies: Bodies<'_>,
-    diagnostics: &mut Diagnostics,
-) -> Conductors {
-    let is_requested = is_requested(filled);
-    let platings = plating::by_side(&filled.plating);
-    let films = films::resolve(
-        &filled.interface.films,
-        platings,
-        bodies.motion,
-        diagnostics,
-    );
-    let temperature = filled.environment.temperature_c.unwrap_or(REFERENCE_C);
+/// Resolves the conductors of bodies under a load.
+pub(super) fn resolve(numerics: &Numerics<'_>, diagnostics: &mut Diagnostics) -> Conductors {
+    let (spec, loading) = (&numerics.spec, numerics.loading);
+    let bodies = loading.bodies;
+    let is_requested = is_requested(spec);
+    let platings = plating::by_side(&spec.plating);
+    let motion = loading.movement.scene;
+    let films = films::resolve(&spec.interface.films, platings, motion, diagnostics);
+    let temperature = spec.environment.temperature_c.unwrap_or(REFERENCE_C);
     let (mut lacks, mut unknown) = (Vec::new(), None);
     // The model gives a contact of finite width its width.
-    let has_width = filled.model.as_ref().is_some_and(Model::has_width);
-    let force = filled.load.as_ref().and_then(|load| {
+    let has_width = spec.model.as_ref().is_some_and(Model::has_width);
+    let force = spec.load.as_ref().and_then(|load| {
         let width = if has_width { Some(1.0) } else { load.width_mm };
         load.n.zip(width)
     });
@@ -55,8 +43,8 @@ pub(super) fn resolve(
     }
     let metals = Sides::from_fn(|side| {
         let of_side = (*platings.of(side), bodies.layers.of(side));
-        let base = *materials::by_side(&filled.materials).of(side);
-        let law = *environment::laws(filled).of(side);
+        let base = *materials::by_side(&spec.materials).of(side);
+        let law = *environment::laws(spec).of(side);
         let pointers = of_side.0.iter().enumerate().map(|(number, layer)| {
             let name = format!("plating.{}[{number}].material", side.name());
             (name, layer.material.as_ref(), layer.wear.as_ref())
@@ -86,24 +74,25 @@ pub(super) fn resolve(
         metals.collect::<Vec<_>>()
     });
     let modulus = contact_modulus(bodies.elastic.slider, bodies.elastic.receptacle);
+    let given = spec.interface.spots.as_ref();
+    let mut spots = given.cloned();
     let conduction = match (unknown, force) {
         (None, Some((_, width_mm))) => {
-            let given = filled.interface.spots.as_ref();
-            let (spots, found) = spots::resolve(given, modulus, diagnostics);
-            filled.interface.spots = Some(spots);
+            let (filled, found) = spots::resolve(given, modulus, diagnostics);
+            spots = Some(filled);
             Conduction::Known(Box::new(Electrical {
                 width_mm,
                 metals,
                 spots: found,
-                frequency_hz: filled.environment.frequency_hz,
-                current_a: filled.environment.current_a,
+                frequency_hz: spec.environment.frequency_hz,
+                current_a: spec.environment.current_a,
                 stop_mohm: Vec::new(),
                 life_mohm: Vec::new(),
             }))
         }
         (missing, _) => {
-            if filled.interface.spots.is_some() {
-                spots::resolve(filled.interface.spots.as_ref(), modulus, diagnostics);
+            if given.is_some() {
+                spots::resolve(given, modulus, diagnostics);
             }
             Conduction::Unknown {
                 missing: missing.unwrap_or(MissingProperty::Force),
@@ -111,13 +100,17 @@ pub(super) fn resolve(
             }
         }
     };
-    if filled.interface.films.is_empty() {
+    if spec.interface.films.is_empty() {
         lacks.push("the films on exposed metals (`interface.films`)".to_owned());
     }
-    if filled.effects.get("resistance").and_then(EnumValue::known) == Some(Switch::Off) {
+    if spec.effects.get("resistance").and_then(EnumValue::known) == Some(Switch::Off) {
         lacks.push("`effects.resistance`, which is `off`".to_owned());
     }
-    Conductors { conduction, lacks }
+    Conductors {
+        conduction,
+        spots,
+        lacks,
+    }
 }
 
 /// Returns `true` if something of the specification is about the resistance alone.

@@ -50,45 +50,25 @@ pub(super) fn resolve(
 ) -> (Model, Resolved) {
     let model = given.cloned().unwrap_or_default();
     let dimension = preset::dimension(&model, kind, diagnostics);
-    let own = Model {
-        preset: model.preset.clone(),
-        dimension: Some(dimension.into()),
-        ..Model::default()
-    };
     let (fields, filled, resolved): (&[&str], _, _) = match dimension {
-        Dimension::PlaneStrain => (&["dimension"], own, Resolved::PlaneStrain),
+        Dimension::PlaneStrain => (&["dimension"], Model::default(), Resolved::PlaneStrain),
         Dimension::Extruded => {
             let (filled, extruded) = extruded::resolve(&model, kind, diagnostics);
-            let filled = Model {
-                preset: own.preset,
-                dimension: own.dimension,
-                ..filled
-            };
             (extruded::FIELDS, filled, Resolved::Extruded(extruded))
         }
         Dimension::Point => {
+            let given = ("/model/radius_z_mm", model.radius_z_mm);
             let default = assumed(shapes.slider.radius_mm);
-            let radius = length(
-                ("/model/radius_z_mm", model.radius_z_mm),
-                default,
-                diagnostics,
-            );
+            let radius_across_mm = length(given, default, diagnostics);
             let filled = Model {
-                radius_z_mm: Some(radius),
-                ..own
+                radius_z_mm: Some(radius_across_mm),
+                ..Model::default()
             };
-            let resolved = Resolved::Point {
-                radius_across_mm: radius,
-            };
+            let resolved = Resolved::Point { radius_across_mm };
             (&["dimension", "radius_z_mm"], filled, resolved)
         }
         Dimension::Line | Dimension::Ring | Dimension::Auto => {
             let (filled, line) = line::resolve((dimension, &model), (shapes, kind), diagnostics);
-            let filled = Model {
-                preset: own.preset,
-                dimension: own.dimension,
-                ..filled
-            };
             let resolved = if dimension == Dimension::Auto {
                 Resolved::Auto(line)
             } else {
@@ -98,6 +78,11 @@ pub(super) fn resolve(
         }
     };
     diagnostics.check_fields("/model", &model, fields, dimension.as_str());
+    let filled = Model {
+        preset: model.preset,
+        dimension: Some(dimension.into()),
+        ..filled
+    };
     (filled, resolved)
 }
 
@@ -132,9 +117,9 @@ pub(super) fn check(
 /// Makes a scene with its section one of its dimension, and checks its laws; with the dimension that was chosen and the reason.
 pub(super) fn with_dimension(
     scene: Scene,
-    (model, spec): (Resolved, &mut Spec),
+    (model, spec): (Resolved, &Spec),
     diagnostics: &mut Diagnostics,
-) -> (Scene, Option<String>) {
+) -> (Scene, Option<(Dimension, String)>) {
     let load = spec.load.as_ref();
     let force_n = load.and_then(|load| load.n).filter(|force| *force > 0.0);
     let is_force = load.is_some_and(|load| load.kind == LoadKind::Force.into());
@@ -160,11 +145,8 @@ pub(super) fn with_dimension(
         }
         Resolved::Auto(line) => {
             let chosen = auto::choose((scene, line, is_force), spec, diagnostics);
-            if let Some(model) = &mut spec.model {
-                model.chosen = Some(chosen.dimension.into());
-            }
             let reason = format!("model `{}`: {}", chosen.dimension.as_str(), chosen.reason);
-            return (chosen.scene, Some(reason));
+            return (chosen.scene, Some((chosen.dimension, reason)));
         }
     };
     (scene, None)

@@ -56,7 +56,7 @@ pub(super) fn with_others(
 }
 
 /// Removes the value at a pointer, or the list that it is an entry of; whether there was one.
-fn remove(document: &mut Value, pointer: &str) -> bool {
+pub(super) fn remove(document: &mut Value, pointer: &str) -> bool {
     let Some((parent, token)) = pointer.rsplit_once('/') else {
         return false;
     };

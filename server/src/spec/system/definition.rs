@@ -53,15 +53,6 @@ macro_rules! dimension {
 pub(super) use dimension;
 
 impl SystemDefinition {
-    /// Names of all dimensions, and their fields in a specification.
-    pub(in crate::spec) fn dimension_fields(
-        &self,
-    ) -> impl Iterator<Item = (&'static str, fn(&mut System) -> &mut Option<f64>)> {
-        self.dimensions
-            .iter()
-            .map(|dimension| (dimension.name, dimension.field))
-    }
-
     /// Names of all dimensions, optional ones included.
     pub(crate) fn dimension_names(&self) -> impl Iterator<Item = &'static str> {
         self.dimensions.iter().map(|dimension| dimension.name)

@@ -266,6 +266,16 @@ fn a_fault_of_the_whole_scene_names_the_field_that_causes_it() {
             "/model/width_mm",
         ),
         (
+            r#""system":{"kind":"sd_card"},"model":{"dimension":"line","width_mm":0.8,"crown_radius_mm":0.01}"#,
+            "/model/crown_radius_mm",
+        ),
+        // Without its radius the wire is too thick for the ring, without its diameter the ring is not known.
+        (
+            r#""system":{"kind":"sd_card","contact_radius_mm":0.02},"motion":{"kind":"reciprocating","amplitude_mm":0.01},
+            "model":{"dimension":"ring","outer_diameter_mm":0.085}"#,
+            "/model/outer_diameter_mm",
+        ),
+        (
             r#""system":{"kind":"sd_card"},"load":{"kind":"force","n":60},"motion":{"kind":"reciprocating","amplitude_mm":0.1},
             "model":{"dimension":"extruded","width_mm":0.2}"#,
             "/load",
