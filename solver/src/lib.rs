@@ -18,7 +18,7 @@ pub mod fields;
 pub mod forecast;
 pub mod interpolation;
 pub mod law;
-pub mod linear;
+mod linear;
 pub mod mesh;
 pub mod model;
 mod number;
@@ -34,3 +34,10 @@ pub mod station;
 mod threads;
 
 pub use error::SolveError;
+
+// The suite names the engine as other crates do, and reaches what is private.
+#[cfg(test)]
+extern crate self as solver;
+#[cfg(test)]
+#[path = "../tests/verification.rs"]
+mod verification;

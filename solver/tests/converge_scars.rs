@@ -5,8 +5,8 @@
 //! ratio of two such changes. Linear elements and a contact edge that lies anywhere between two nodes suggest
 //! first order in the width of the scar and a higher one in its depth.
 
-use crate::recorder::{depth_at, solve};
-use crate::scenes::{fuzz_button, mccoll};
+use crate::verification::recorder::{depth_at, solve};
+use crate::verification::scenes::{fuzz_button, mccoll};
 use solver::record::DepthProfile;
 use solver::scene::Scene;
 

@@ -6,8 +6,8 @@
 //! contact at first and shorter in the end (a sprung contact on a pad), and partial slip (the cylinder at 120 N/mm
 //! and +-3 um, where two thirds of the contact stick).
 
-use crate::recorder::{area_between, largest_distance, solve};
-use crate::scenes::{groove, partial_slip, scar, sprung_contact};
+use crate::verification::recorder::{area_between, largest_distance, solve};
+use crate::verification::scenes::{groove, partial_slip, scar, sprung_contact};
 use solver::record::{DepthProfile, SideReport};
 use solver::scene::Scene;
 

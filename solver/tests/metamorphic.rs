@@ -25,7 +25,7 @@ use std::str::FromStr;
 use comparison::Deviation;
 use solver::SolveError;
 
-use crate::random_scenes::{Drawn, Regime, draw};
+use crate::verification::random_scenes::{Drawn, Regime, draw};
 
 /// The accuracy that most specifications ask for.
 const TOLERANCE: f64 = 0.02;

@@ -6,8 +6,8 @@
 //!    ___`--'___         P / (2 b), exactly once elastic flattening is small beside the depth
 //! ```
 
-use crate::recorder::solve;
-use crate::scenes::mccoll;
+use crate::verification::recorder::solve;
+use crate::verification::scenes::mccoll;
 use solver::scene::{Motion, Scene, WearLaw};
 
 #[test]

@@ -9,7 +9,7 @@
 //! On unloading, reverse slip has spread from the edge to c' although Q is zero: the solution depends on the
 //! tangential history.
 
-use crate::scenes::mccoll;
+use crate::verification::scenes::mccoll;
 use solver::condensation::{BodyOperators, Condensed, condense};
 use solver::contact::{ContactState, Displacement, Pair, Solver, Status, Surfaces, slopes};
 use solver::fields;

@@ -11,9 +11,9 @@ use solver::record::{CycleReport, Outcome, Snapshot};
 use solver::scene::{Accuracy, Friction, Scene, Table, WearLaw};
 use solver::sides::{Side, Sides};
 
-use crate::recorder::solve;
-use crate::scenes::{groove, partial_slip, scar};
-use crate::verify_plating::{RATES, THICKNESS, plated};
+use crate::verification::recorder::solve;
+use crate::verification::scenes::{groove, partial_slip, scar};
+use crate::verification::verify_plating::{RATES, THICKNESS, plated};
 
 pub(crate) const LOW: f64 = 0.2;
 pub(crate) const HIGH: f64 = 0.55;

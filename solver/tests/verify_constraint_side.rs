@@ -2,7 +2,7 @@
 //! spring and on a crowned receptacle. No reference but itself: the two discretisations share the bodies and nothing of the
 //! coupling.
 
-use crate::scenes::mccoll;
+use crate::verification::scenes::mccoll;
 use solver::condensation::condense;
 use solver::cycle::{CycleState, Integrator};
 use solver::scene::{Drive, Scene};

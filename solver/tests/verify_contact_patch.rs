@@ -17,7 +17,7 @@ use solver::model::{
 use solver::scene::{Elastic, SurfaceEffects};
 use solver::sides::{Side, Sides};
 
-use crate::scenes::mccoll;
+use crate::verification::scenes::mccoll;
 
 fn body(x: Vec<f64>, far_y: f64, support: Support) -> BodyModel {
     let contact = (0, x.len());

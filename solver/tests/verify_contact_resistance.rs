@@ -4,9 +4,9 @@
 //! * A limit is met at the same cycle whether the run stops there or continues, and interrupted runs reach the same bits.
 //! * The resistance changes no wear.
 
-use crate::recorder::{Recorder, solve};
-use crate::verify_plating::{THICKNESS, plated};
-use crate::verify_resume::resumes_to_the_same_bits;
+use crate::verification::recorder::{Recorder, solve};
+use crate::verification::verify_plating::{THICKNESS, plated};
+use crate::verification::verify_resume::resumes_to_the_same_bits;
 use solver::effects::{AcrossWidth, Basis, Facts};
 use solver::law::resistance::{Deformation, Film, Growth};
 use solver::record::{CycleReport, Outcome, ResistanceReport, Warning};

@@ -14,10 +14,10 @@ use solver::record::{Excess, Outcome, Quantity, Summary, Warning};
 use solver::scene::Scene;
 use solver::sides::Side;
 
-use crate::metamorphic::setting;
-use crate::random_scenes::{Drawn, draw};
-use crate::recorder::{Recorder, solve};
-use crate::scenes::sprung_contact;
+use crate::verification::metamorphic::setting;
+use crate::verification::random_scenes::{Drawn, draw};
+use crate::verification::recorder::{Recorder, solve};
+use crate::verification::scenes::sprung_contact;
 
 const TOLERANCE: f64 = 0.02;
 /// The tolerance of a reference over that of the run.

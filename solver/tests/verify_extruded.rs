@@ -18,7 +18,7 @@ mod wear;
 
 use std::ops::ControlFlow;
 
-use crate::scenes::fuzz_button;
+use crate::verification::scenes::fuzz_button;
 use solver::contact::ContactState;
 use solver::cycle::{CycleState, Integrator};
 use solver::extruded::{ExtrudedScene, ExtrudedSummary, run};

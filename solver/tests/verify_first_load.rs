@@ -4,8 +4,8 @@
 //! the middle sticks (Spence 1975); here the stick zone is narrower than an element. Newton's active set cycles on the finer
 //! mesh, of 300 candidate nodes: 33 of them still changed after 60 iterations.
 
-use crate::recorder::solve;
-use crate::scenes::mccoll;
+use crate::verification::recorder::solve;
+use crate::verification::scenes::mccoll;
 use solver::scene::{Elastic, Friction};
 
 #[test]

@@ -13,14 +13,14 @@ use solver::run;
 use solver::scene::{Barwell, Course, Motion, WearLaw};
 use solver::sides::Side;
 
-use crate::recorder::{Recorder, solve};
-use crate::scenes::{groove, partial_slip, scar, sprung_contact};
-use crate::verify_changing_friction::{
+use crate::verification::recorder::{Recorder, solve};
+use crate::verification::scenes::{groove, partial_slip, scar, sprung_contact};
+use crate::verification::verify_changing_friction::{
     HIGH, LOW, by_cycle, by_dose, by_layer, constant, energy, shortened, with,
 };
-use crate::verify_mission::{block, one_by_one, vibrated_and_wiped, with_mission};
-use crate::verify_plating::{RATES, plated};
-use crate::verify_resume::resumes_to_the_same_bits;
+use crate::verification::verify_mission::{block, one_by_one, vibrated_and_wiped, with_mission};
+use crate::verification::verify_plating::{RATES, plated};
+use crate::verification::verify_resume::resumes_to_the_same_bits;
 
 /// The checkpoint at a cycle.
 struct CheckpointAt(u64, Option<Checkpoint>);

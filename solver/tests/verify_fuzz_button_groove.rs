@@ -15,8 +15,8 @@
 
 use std::f64::consts::PI;
 
-use crate::recorder::solve;
-use crate::scenes::{COPPER_WEAR, fuzz_button, groove};
+use crate::verification::recorder::solve;
+use crate::verification::scenes::{COPPER_WEAR, fuzz_button, groove};
 use solver::scene::{Friction, Motion, Scene};
 
 const LOAD: f64 = 0.508;

@@ -7,8 +7,8 @@
 //!  __`-.-'__
 //! ```
 
-use crate::recorder::solve;
-use crate::scenes::mccoll;
+use crate::verification::recorder::solve;
+use crate::verification::scenes::mccoll;
 use solver::scene::{Friction, Scene};
 
 #[test]

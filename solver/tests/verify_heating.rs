@@ -2,10 +2,10 @@
 
 use std::ops::ControlFlow;
 
-use crate::recorder::{Recorder, solve};
-use crate::scenes::mccoll;
-use crate::verify_mission::with_mission;
-use crate::verify_resume::resumes_to_the_same_bits;
+use crate::verification::recorder::{Recorder, solve};
+use crate::verification::scenes::mccoll;
+use crate::verification::verify_mission::with_mission;
+use crate::verification::verify_resume::resumes_to_the_same_bits;
 use solver::SolveError;
 use solver::effects::{EffectsPlan, Verdict, plan};
 use solver::error_control;

@@ -8,8 +8,8 @@
 //! ```
 //! The bodies are finite (12 x 6 mm and a cylinder section of 9 x 6 mm), a/R = 0.6 %, so Hertz holds to O(a/R).
 
-use crate::recorder::solve;
-use crate::scenes::mccoll;
+use crate::verification::recorder::solve;
+use crate::verification::scenes::mccoll;
 use solver::scene::{Elastic, Friction, Motion, Scene};
 use std::f64::consts::PI;
 

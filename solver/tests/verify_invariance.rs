@@ -1,7 +1,7 @@
 //! Invariance to the unit of length, and to the exchange of wear coefficient for sliding distance; energy balance.
 
-use crate::recorder::solve;
-use crate::scenes::{groove, mccoll, partial_slip};
+use crate::verification::recorder::solve;
+use crate::verification::scenes::{groove, mccoll, partial_slip};
 use solver::scene::{Motion, Scene, WearLaw};
 
 /// All lengths times 4 (and the line load with them) at the same stresses: all depths times 4, up to

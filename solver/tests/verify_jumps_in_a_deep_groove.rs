@@ -10,8 +10,8 @@
 //!
 //! `FRETWEAR_TOLERANCE=0.02 cargo test --release -p solver deep_groove -- --nocapture` prints it for another tolerance.
 
-use crate::recorder::{area_between, largest_distance, solve};
-use crate::scenes::fuzz_button;
+use crate::verification::recorder::{area_between, largest_distance, solve};
+use crate::verification::scenes::fuzz_button;
 use solver::record::Quantity;
 
 fn jumps_in_a_deep_groove_are_within_the_tolerance_of_single_cycles() {

@@ -4,10 +4,12 @@
 //! * The floor of a long groove is through its layers at once, after t/(2 k P) cycles of each: so long does the resistance stay low. A film
 //!   that grows in proportion to the time reaches a limit by as much later as it takes to grow.
 
-use crate::recorder::solve;
-use crate::verify_contact_resistance::{FILM, FORCE, clean_and_covered, filmed, limited};
-use crate::verify_plating::{RATES, THICKNESS, layer};
-use crate::verify_section_and_ball::as_ball;
+use crate::verification::recorder::solve;
+use crate::verification::verify_contact_resistance::{
+    FILM, FORCE, clean_and_covered, filmed, limited,
+};
+use crate::verification::verify_plating::{RATES, THICKNESS, layer};
+use crate::verification::verify_section_and_ball::as_ball;
 use fastrand::Rng;
 use solver::closed_form::half_lengths_mm;
 use solver::law::resistance::{Film, Growth};

@@ -7,8 +7,8 @@ use solver::scene::Effect;
 use solver::scene::{Accuracy, Dimension, Scene, Top};
 use solver::sides::Side;
 
-use crate::recorder::solve;
-use crate::verify_line_runs::{CROWN, FORCE, GOLD, ring, spring};
+use crate::verification::recorder::solve;
+use crate::verification::verify_line_runs::{CROWN, FORCE, GOLD, ring, spring};
 
 /// The snapshot of the unworn contact, with fields.
 fn unworn(mut scene: Scene) -> Snapshot {

@@ -13,10 +13,10 @@ use solver::scene::{
 };
 use solver::sides::Side;
 
-use crate::recorder::{check_stated_error, solve};
-use crate::scenes::{fuzz_button, sprung_contact};
-use crate::verify_resume::resumes_to_the_same_bits;
-use crate::verify_section_and_ball::as_ball;
+use crate::verification::recorder::{check_stated_error, solve};
+use crate::verification::scenes::{fuzz_button, sprung_contact};
+use crate::verification::verify_resume::resumes_to_the_same_bits;
+use crate::verification::verify_section_and_ball::as_ball;
 
 pub(crate) const FORCE: f64 = 0.5;
 const WIDTH: f64 = 0.8;

@@ -4,8 +4,8 @@
 //! * Zones and a single mesh give the same depths and pressures, whichever body wears.
 //! * Where all of the contact slides over a flat floor, each pass wears k P (as in `verify_moving_line_contact`).
 
-use crate::recorder::{Recorder, largest_distance, solve};
-use crate::scenes::sprung_contact;
+use crate::verification::recorder::{Recorder, largest_distance, solve};
+use crate::verification::scenes::sprung_contact;
 use solver::model::Layout;
 use solver::record::Summary;
 use solver::scene::{Accuracy, Motion, Scene, WearLaw};

@@ -9,8 +9,8 @@
 //! Reference: depth of the flat from two independent finite-element codes (public data set illavori/LevelSetWear),
 //! the area ratio worn/(k P s), the half-width 0.255 mm and a peak pressure of about 73 MPa at the end.
 
-use crate::recorder::solve;
-use crate::scenes::mccoll;
+use crate::verification::recorder::solve;
+use crate::verification::scenes::mccoll;
 use solver::record::TractionField;
 
 /// Cycles, depth of the flat in um (lowest and highest code), area ratio.

@@ -8,8 +8,8 @@ use solver::scene::{
 };
 use solver::sides::{Side, Sides};
 
-use crate::recorder::{check_stated_error, depth_at, largest_distance, solve};
-use crate::scenes::sprung_contact;
+use crate::verification::recorder::{check_stated_error, depth_at, largest_distance, solve};
+use crate::verification::scenes::sprung_contact;
 
 /// k/H of `sprung_contact`, 1/MPa.
 pub(crate) const RATE: f64 = 0.004 / 1_700.0;
@@ -205,7 +205,7 @@ fn a_block_without_slip_does_not_wear() {
 #[test]
 fn a_contact_sticks_in_one_block_and_slides_in_the_other() {
     let scene = with_mission(
-        crate::scenes::partial_slip(),
+        crate::verification::scenes::partial_slip(),
         &[block(0.003, 200), block(0.03, 10)],
         5,
     );

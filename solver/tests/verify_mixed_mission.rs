@@ -5,12 +5,12 @@ use solver::model::Layout;
 use solver::scene::{Criterion, Order, Scene};
 use solver::sides::Side;
 
-use crate::recorder::{depth_at, largest_distance, solve};
-use crate::scenes::sprung_contact;
-use crate::verify_mission::{
+use crate::verification::recorder::{depth_at, largest_distance, solve};
+use crate::verification::scenes::sprung_contact;
+use crate::verification::verify_mission::{
     RATE, block, last_profiles, one_by_one, vibrated_and_wiped, with_mission,
 };
-use crate::verify_resume::resumes_to_the_same_bits;
+use crate::verification::verify_resume::resumes_to_the_same_bits;
 
 fn mixed(mut scene: Scene) -> Scene {
     if let Some(mission) = &mut scene.mission {

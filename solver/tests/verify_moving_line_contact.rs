@@ -10,8 +10,8 @@
 //! surface is strained as it passes, together 0.1 %; and because elements or steps as long as half the half-width sample the pressure coarsely, by
 //! a few per cent at single places, without effect on the mean.
 
-use crate::recorder::solve;
-use crate::scenes::mccoll;
+use crate::verification::recorder::solve;
+use crate::verification::scenes::mccoll;
 use solver::scene::{Effect, Switches};
 use solver::scene::{Friction, Motion, Scene, WearLaw};
 

@@ -4,9 +4,9 @@ mod runs;
 
 use std::f64::consts::PI;
 
-use crate::recorder::{depth_at, largest_distance, solve};
-use crate::scenes::{mccoll, partial_slip, sprung_contact};
-use crate::verify_mission::{RATE, last_profiles};
+use crate::verification::recorder::{depth_at, largest_distance, solve};
+use crate::verification::scenes::{mccoll, partial_slip, sprung_contact};
+use crate::verification::verify_mission::{RATE, last_profiles};
 use solver::condensation::condense;
 use solver::cycle::{CycleState, Integrator};
 use solver::effects;

@@ -3,8 +3,8 @@
 //! * A criterion is reached at the same cycle whether the run stops there or continues.
 //! * A base that wears twenty times as fast as its plating, or not at all, needs few computed cycles more than a bare body.
 
-use crate::recorder::solve;
-use crate::verify_plating::{THICKNESS, layer, plated};
+use crate::verification::recorder::solve;
+use crate::verification::verify_plating::{THICKNESS, layer, plated};
 use solver::record::{Outcome, Summary};
 use solver::scene::{Criterion, Scene, WearLaw};
 use solver::sides::Side;

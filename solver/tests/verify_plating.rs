@@ -6,8 +6,8 @@
 //!   and carries the constraints: integral of G^-1(h) dx = energy/mu.
 //! * Layers of one rate wear as the bare body.
 
-use crate::recorder::{Recorder, largest_distance, solve};
-use crate::scenes::sprung_contact;
+use crate::verification::recorder::{Recorder, largest_distance, solve};
+use crate::verification::scenes::sprung_contact;
 use solver::record::{DepthProfile, Outcome, Summary};
 use solver::scene::{Accuracy, Criterion, Layer, Motion, Scene, WearLaw};
 use solver::sides::{Side, Sides};

@@ -9,10 +9,10 @@ use solver::scene::Effect;
 use solver::scene::{Accuracy, Criterion, Layer, Motion, Refinement, Scene, WearLaw};
 use solver::sides::Side;
 
-use crate::recorder::{check_stated_error, solve};
-use crate::scenes::sprung_contact;
-use crate::verify_resume::resumes_to_the_same_bits;
-use crate::verify_section_and_ball::as_ball;
+use crate::verification::recorder::{check_stated_error, solve};
+use crate::verification::scenes::sprung_contact;
+use crate::verification::verify_resume::resumes_to_the_same_bits;
+use crate::verification::verify_section_and_ball::as_ball;
 
 const FORCE: f64 = 0.5;
 const RADIUS: f64 = 0.4;

@@ -4,8 +4,8 @@
 //! pass ended. That is a thousandth of the depth, and a tenth of the pressure. Where a report follows a short jump, the skew is
 //! still that of the long ones before.
 
-use crate::recorder::solve;
-use crate::scenes::{partial_slip, scar, sprung_contact};
+use crate::verification::recorder::solve;
+use crate::verification::scenes::{partial_slip, scar, sprung_contact};
 use solver::interpolation;
 use solver::record::{Snapshot, TractionField};
 use solver::scene::{Motion, Scene};

@@ -4,8 +4,8 @@
 //! the floor are waves of ten per cent in the pressure. Longer increments leave such waves, and jumps multiply them, while no
 //! depth, area or residual shows any of it.
 
-use crate::recorder::solve;
-use crate::scenes::{fuzz_button, pin, sprung_contact};
+use crate::verification::recorder::solve;
+use crate::verification::scenes::{fuzz_button, pin, sprung_contact};
 use solver::interpolation;
 use solver::record::CycleReport;
 use solver::scene::{Motion, PRESSURE_TOLERANCES, Scene};

@@ -1,7 +1,7 @@
 //! The same input gives the same bits, however many solves run at once.
 
-use crate::recorder::{Recorder, solve};
-use crate::scenes::{fuzz_button, mccoll};
+use crate::verification::recorder::{Recorder, solve};
+use crate::verification::scenes::{fuzz_button, mccoll};
 use solver::scene::Scene;
 
 fn bits(recorder: &Recorder) -> Vec<u64> {

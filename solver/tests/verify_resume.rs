@@ -2,10 +2,10 @@
 
 use std::ops::ControlFlow;
 
-use crate::recorder::Recorder;
-use crate::scenes::{fuzz_button, mccoll};
-use crate::verify_long_wipe::{RATE, wipe};
-use crate::verify_mission::vibrated_and_wiped;
+use crate::verification::recorder::Recorder;
+use crate::verification::scenes::{fuzz_button, mccoll};
+use crate::verification::verify_long_wipe::{RATE, wipe};
+use crate::verification::verify_mission::vibrated_and_wiped;
 use solver::SolveError;
 use solver::checkpoint::{Checkpoint, CheckpointMismatch};
 use solver::observer::{Event, Observer};

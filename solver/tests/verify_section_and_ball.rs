@@ -11,8 +11,8 @@ use solver::record::Outcome;
 use solver::scene::{Accuracy, Criterion, Dimension, Motion, Point, Scene, WearLaw};
 use solver::sides::{Side, Sides};
 
-use crate::recorder::solve;
-use crate::scenes::sprung_contact;
+use crate::verification::recorder::solve;
+use crate::verification::scenes::sprung_contact;
 
 const RADIUS: f64 = 0.4;
 const WIDTH: f64 = 0.8;

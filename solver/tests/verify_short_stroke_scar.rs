@@ -6,8 +6,8 @@
 //!   ___`-.-'___         as elastic flattening (a^2/(2R) = 0.1 um) and the stroke (2 um) fade beside b and the depth
 //! ```
 
-use crate::recorder::solve;
-use crate::scenes::mccoll;
+use crate::verification::recorder::solve;
+use crate::verification::scenes::mccoll;
 use solver::record::Position;
 use solver::scene::{Friction, Motion, Scene, WearLaw};
 

@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use crate::scenes::fuzz_button;
+use crate::verification::scenes::fuzz_button;
 use solver::condensation::condense;
 use solver::effects;
 use solver::model;

@@ -7,8 +7,8 @@
 //!   ~~~~`-'~~~~
 //! ```
 
-use crate::recorder::solve;
-use crate::scenes::{COPPER_WEAR, fuzz_button};
+use crate::verification::recorder::solve;
+use crate::verification::scenes::{COPPER_WEAR, fuzz_button};
 use solver::scene::{Drive, Scene};
 
 #[test]

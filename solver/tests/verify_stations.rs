@@ -19,8 +19,8 @@ mod trough;
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use crate::recorder::{depth_at, solve};
-use crate::scenes::{COPPER_WEAR, fuzz_button};
+use crate::verification::recorder::{depth_at, solve};
+use crate::verification::scenes::{COPPER_WEAR, fuzz_button};
 use solver::along_line::StationProfile;
 use solver::record::DepthProfile;
 use solver::scene::{Effect, Switches};

@@ -12,8 +12,8 @@
 
 use std::f64::consts::PI;
 
-use crate::recorder::solve;
-use crate::scenes::mccoll;
+use crate::verification::recorder::solve;
+use crate::verification::scenes::mccoll;
 use solver::record::{DepthProfile, Position, Snapshot, TractionField};
 use solver::scene::{Friction, Motion, Scene, WearLaw};
 use solver::sides::{Side, Sides};

@@ -6,8 +6,8 @@
 //!  /  R2   \   block, crowned                      /  R1   \
 //! ```
 
-use crate::recorder::solve;
-use crate::scenes::mccoll;
+use crate::verification::recorder::solve;
+use crate::verification::scenes::mccoll;
 use solver::condensation::condense;
 use solver::contact::{ContactState, Displacement, Pair, Solver, Surfaces, slopes};
 use solver::scene::{BlockShape, Friction, Scene, SliderShape};

@@ -1,7 +1,7 @@
 //! A surface at a temperature wears as one of the hardness that it has there, to the bit: bases, layers, both sides.
 
-use crate::recorder::solve;
-use crate::verify_plating::plated;
+use crate::verification::recorder::solve;
+use crate::verification::verify_plating::plated;
 use solver::scene::{Scene, Softening, WearLaw};
 use solver::sides::Side;
 

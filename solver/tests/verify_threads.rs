@@ -8,8 +8,8 @@ use solver::observer::{Event, Observer};
 use solver::record::{Outcome, Summary};
 use solver::scene::{Accuracy, Scene};
 
-use crate::scenes::{fuzz_button, mccoll};
-use crate::verify_error_control::{Delivered, outside_at_first};
+use crate::verification::scenes::{fuzz_button, mccoll};
+use crate::verification::verify_error_control::{Delivered, outside_at_first};
 
 /// Summary of a run, and everything that it has delivered besides checkpoints.
 fn solved(scene: &Scene, threads: usize) -> String {

@@ -6,8 +6,8 @@ mod barwell;
 mod oxidational;
 mod power;
 
-use crate::recorder::{Recorder, largest_distance, solve};
-use crate::scenes::{mccoll, sprung_contact};
+use crate::verification::recorder::{Recorder, largest_distance, solve};
+use crate::verification::scenes::{mccoll, sprung_contact};
 use solver::record::{DepthProfile, SideReport, Summary};
 use solver::scene::{Accuracy, BlockShape, Friction, Motion, Scene, SliderShape, WearLaw};
 use solver::sides::{Side, Sides};

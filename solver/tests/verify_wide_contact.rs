@@ -1,8 +1,8 @@
 //! Contacts of hundreds of nodes, whose operators are compressed and whose Jacobian is factored with off-diagonal blocks of low rank
 //! (Ambikasaran and Darve 2013): the same displacements and the same solutions.
 
-use crate::scenes::mccoll;
-use crate::verify_plating::layer;
+use crate::verification::scenes::mccoll;
+use crate::verification::verify_plating::layer;
 use solver::condensation::{Condensed, condense};
 use solver::cycle::{CycleState, Integrator};
 use solver::model::{self, Model};

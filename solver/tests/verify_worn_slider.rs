@@ -5,8 +5,8 @@
 //! pressure nor the depth may depend on it. With the constraints on the receptacle's finer nodes the pressure was a comb of
 //! six times the mean.
 
-use crate::recorder::solve;
-use crate::scenes::sprung_contact;
+use crate::verification::recorder::solve;
+use crate::verification::scenes::sprung_contact;
 use solver::record::{CycleReport, Outcome, Position, TractionField};
 use solver::scene::{Body, Criterion, Motion, Scene, SliderShape, Tuning, WearLaw};
 use solver::sides::Side;

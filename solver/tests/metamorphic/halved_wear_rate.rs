@@ -21,8 +21,8 @@ use solver::sides::{Side, Sides};
 
 use super::comparison::{Allowed, Deviation, compare};
 use super::{ALL, SLIDING, STICKING, TOLERANCE, holds, holds_plated};
-use crate::random_scenes::{Drawn, Regime, scale_wear};
-use crate::recorder::solve;
+use crate::verification::random_scenes::{Drawn, Regime, scale_wear};
+use crate::verification::recorder::solve;
 
 /// So many times the cycles at a rate that wears the same area.
 fn slower(scene: &Scene, times: u32) -> Scene {

@@ -10,8 +10,8 @@ use solver::scene::Scene;
 
 use super::comparison::{Allowed, Deviation, compare};
 use super::{ALL, TOLERANCE, holds};
-use crate::random_scenes::Drawn;
-use crate::recorder::solve;
+use crate::verification::random_scenes::Drawn;
+use crate::verification::recorder::solve;
 
 fn longer(scene: &Scene, heights: f64) -> Scene {
     let mut scene = scene.clone();

@@ -17,7 +17,7 @@ use solver::sides::Side;
 
 use super::comparison::Deviation;
 use super::{ALL, holds, holds_plated};
-use crate::random_scenes::Drawn;
+use crate::verification::random_scenes::Drawn;
 
 /// Computed cycles, each of so many physical ones.
 const COMPUTED: u64 = 4;

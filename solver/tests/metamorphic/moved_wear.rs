@@ -14,8 +14,8 @@ use solver::scene::{Motion, Scene, WearLaw};
 
 use super::comparison::{Allowed, Deviation};
 use super::{SLIDING, STICKING, TOLERANCE, holds, holds_in_found};
-use crate::random_scenes::{Drawn, Regime, scale_wear};
-use crate::recorder::solve;
+use crate::verification::random_scenes::{Drawn, Regime, scale_wear};
+use crate::verification::recorder::solve;
 
 fn short(scene: &Scene) -> (Scene, f64) {
     let mut scene = scene.clone();

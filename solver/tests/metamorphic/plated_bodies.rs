@@ -7,8 +7,8 @@
 use solver::SolveError;
 use solver::scene::{Body, Layer, WearLaw};
 
-use crate::random_scenes::Drawn;
-use crate::recorder::solve;
+use crate::verification::random_scenes::Drawn;
+use crate::verification::recorder::solve;
 
 /// Thickness of each layer over the depth of the bare body's wear.
 const THICKNESS: f64 = 0.3;

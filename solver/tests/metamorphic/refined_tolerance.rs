@@ -7,8 +7,8 @@ use solver::SolveError;
 
 use super::comparison::{Allowed, Deviation, compare};
 use super::{SLIDING, STICKING, TOLERANCE, holds, holds_in_found};
-use crate::random_scenes::Drawn;
-use crate::recorder::solve;
+use crate::verification::random_scenes::Drawn;
+use crate::verification::recorder::solve;
 
 fn the_same_when_refined(drawn: &Drawn) -> Result<Option<Vec<Deviation>>, SolveError> {
     let mut refined = drawn.scene.clone();

@@ -10,8 +10,8 @@ use solver::scene::{Motion, Scene};
 
 use super::comparison::Deviation;
 use super::{ALL, holds, holds_plated};
-use crate::random_scenes::{Drawn, scale_wear};
-use crate::recorder::solve;
+use crate::verification::random_scenes::{Drawn, scale_wear};
+use crate::verification::recorder::solve;
 
 /// The scene with its lengths and stresses multiplied.
 fn in_other_units(scene: &Scene, length: f64, stress: f64) -> Scene {

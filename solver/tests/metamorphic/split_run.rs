@@ -11,8 +11,8 @@ use solver::run;
 
 use super::comparison::Deviation;
 use super::{ALL, holds, holds_plated};
-use crate::random_scenes::Drawn;
-use crate::recorder::{Recorder, solve};
+use crate::verification::random_scenes::Drawn;
+use crate::verification::recorder::{Recorder, solve};
 
 /// Stops at the first checkpoint at or after a cycle.
 struct StopAt {

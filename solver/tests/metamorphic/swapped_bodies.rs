@@ -17,8 +17,8 @@ use solver::scene::{BlockShape, Body, Drive, Scene, SliderShape};
 
 use super::comparison::{Allowed, Deviation, compare};
 use super::{SLIDING, STICKING, TOLERANCE, holds, holds_in_found, holds_plated};
-use crate::random_scenes::Drawn;
-use crate::recorder::solve;
+use crate::verification::random_scenes::Drawn;
+use crate::verification::recorder::solve;
 
 /// The scene with a crown, at which the block's sides are at least half as high as its middle, and driven by its top face.
 fn crowned(scene: &Scene) -> (Scene, f64) {

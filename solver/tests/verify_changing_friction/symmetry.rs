@@ -6,9 +6,9 @@ use solver::cycle::{CycleState, Integrator};
 use solver::scene::{Motion, WearLaw};
 use solver::sides::Side;
 
-use crate::recorder::solve;
-use crate::scenes::mccoll;
-use crate::verify_plating::plated;
+use crate::verification::recorder::solve;
+use crate::verification::scenes::mccoll;
+use crate::verification::verify_plating::plated;
 
 /// Both bodies have the same outline upside down, as in `verify_symmetry`; a film on one of them, or different ones on both.
 #[test]
@@ -21,8 +21,8 @@ fn swapped_bodies_have_the_same_friction() {
     here.receptacle.shape.height_mm = 4.0;
     here.receptacle.shape.crown_radius_mm = Some(9.0);
     (here.slider.wear, here.receptacle.wear) = (base(2e-8), base(4e-8));
-    here.slider.plating = vec![crate::verify_plating::layer(0.1e-3, 2e-8)];
-    here.receptacle.plating = vec![crate::verify_plating::layer(0.15e-3, 4e-8)];
+    here.slider.plating = vec![crate::verification::verify_plating::layer(0.1e-3, 2e-8)];
+    here.receptacle.plating = vec![crate::verification::verify_plating::layer(0.15e-3, 4e-8)];
     let mut there = here.clone();
     there.slider.shape.radius_mm = 9.0;
     there.receptacle.shape.crown_radius_mm = Some(6.0);

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use super::{TWO, button};
-use crate::recorder::solve;
+use crate::verification::recorder::solve;
 use solver::extruded::run;
 use solver::scene::{Accuracy, Ends};
 use solver::scene::{Effect, Switches};

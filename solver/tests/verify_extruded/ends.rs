@@ -1,9 +1,9 @@
 //! The loaded, unworn contact: held ends are plane strain, free ends are softer.
 
 use super::{TWO, button, difference, loaded, loaded_plane, over_plane, solved};
-use crate::recorder::solve;
-use crate::scenes::{COPPER_WEAR, mccoll};
-use crate::verify_plating::layer;
+use crate::verification::recorder::solve;
+use crate::verification::scenes::{COPPER_WEAR, mccoll};
+use crate::verification::verify_plating::layer;
 use solver::scene::{Accuracy, Drive, Ends, Friction, Scene, WearLaw};
 use solver::scene::{Effect, Switches};
 use solver::sides::Sides;

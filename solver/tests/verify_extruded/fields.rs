@@ -2,7 +2,7 @@
 //! sum over their surfaces and over a cut through the receptacle.
 
 use super::runs::extruded;
-use crate::recorder::solve;
+use crate::verification::recorder::solve;
 use solver::fields::{BodyFields, LineFields, SectionFields, SweptFields};
 use solver::record::{Position, Snapshot};
 use solver::scene::Effect;

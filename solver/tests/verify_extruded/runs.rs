@@ -1,10 +1,10 @@
 //! Extruded bodies as runs of a scene: checkpoints, layers, springs, lives and stated errors are those of a section's run.
 
 use super::WIDTH;
-use crate::recorder::{check_stated_error, solve};
-use crate::scenes::fuzz_button;
-use crate::verify_plating::layer;
-use crate::verify_resume::resumes_to_the_same_bits;
+use crate::verification::recorder::{check_stated_error, solve};
+use crate::verification::scenes::fuzz_button;
+use crate::verification::verify_plating::layer;
+use crate::verification::verify_resume::resumes_to_the_same_bits;
 use solver::scene::Effect;
 use solver::scene::{Accuracy, Criterion, Dimension, Ends, Extruded, Scene, WearLaw};
 use solver::sides::Side;

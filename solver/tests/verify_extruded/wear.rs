@@ -1,8 +1,8 @@
 //! Wear of extruded bodies in gross sliding: volumes are those of the sliding work, floors those of the line load, whatever the ends.
 
 use super::{TWO, WIDTH, button, difference, solved};
-use crate::recorder::solve;
-use crate::scenes::{COPPER_WEAR, groove, pin, scar, sprung_contact};
+use crate::verification::recorder::solve;
+use crate::verification::scenes::{COPPER_WEAR, groove, pin, scar, sprung_contact};
 use solver::extruded::{ExtrudedOutcome, ExtrudedScene, ExtrudedSummary};
 use solver::interpolation;
 use solver::scene::{Accuracy, Drive, Ends, Friction, Motion, WearLaw};

@@ -1,10 +1,10 @@
 //! Runs of periodic motions: increments, checkpoints, stated errors, forecasts, missions.
 
 use super::{both_wear, inner_loop, periodic};
-use crate::recorder::{check_stated_error, depth_at, largest_distance, solve};
-use crate::scenes::sprung_contact;
-use crate::verify_mission::{RATE, block, last_profiles, with_mission};
-use crate::verify_resume::resumes_to_the_same_bits;
+use crate::verification::recorder::{check_stated_error, depth_at, largest_distance, solve};
+use crate::verification::scenes::sprung_contact;
+use crate::verification::verify_mission::{RATE, block, last_profiles, with_mission};
+use crate::verification::verify_resume::resumes_to_the_same_bits;
 use solver::forecast::forecast;
 use solver::model::Layout;
 use solver::scene::{Accuracy, Block, Scene, Timing};

@@ -4,8 +4,8 @@
 //!   P' = (pi/2) (F/L) cos(theta),  2 k P'/cos(theta) = pi k F/(2 pi R) = k F/(2 R).
 
 use super::{FORCE, RADIUS, floor_nm, plane, ring, solved};
-use crate::recorder::solve;
-use crate::scenes::COPPER_WEAR;
+use crate::verification::recorder::solve;
+use crate::verification::scenes::COPPER_WEAR;
 use solver::scene::Top;
 use solver::station::{run, stations_for};
 use std::f64::consts::PI;

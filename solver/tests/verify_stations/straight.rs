@@ -8,7 +8,7 @@
 //! worn, the depth decides and not the approach.
 
 use super::solved;
-use crate::scenes::sprung_contact;
+use crate::verification::scenes::sprung_contact;
 use solver::along_line::Along;
 use solver::scene::{BlockShape, Friction, Motion, SliderShape, WearLaw};
 use solver::scene::{LineShape, Top};

@@ -11,7 +11,7 @@
 //! which is more than k P' s: the normal force on its walls is more than the line load. Shallow troughs: 1 + a^2/10 times as much.
 
 use super::{RADIUS, ring, solved};
-use crate::scenes::COPPER_WEAR;
+use crate::verification::scenes::COPPER_WEAR;
 use solver::scene::{LineShape, Motion, RingMotion, Top, WearLaw};
 use solver::station::StationScene;
 

@@ -4,8 +4,8 @@
 use super::{
     ARCHARD, LONG, SHORT, check_refinement, check_swap, integral, last_profile, reports, scene,
 };
-use crate::recorder::solve;
-use crate::verify_resume::resumes_to_the_same_bits;
+use crate::verification::recorder::solve;
+use crate::verification::verify_resume::resumes_to_the_same_bits;
 use solver::scene::{Accuracy, Barwell, Course, Friction, Motion, Scene, WearLaw};
 use solver::sides::{Side, Sides};
 

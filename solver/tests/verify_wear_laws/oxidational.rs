@@ -6,8 +6,8 @@ use std::sync::Arc;
 use super::{
     ARCHARD, LONG, SHORT, TOLERANCE, check_refinement, check_swap, difference, reports, scene,
 };
-use crate::recorder::{largest_distance, solve};
-use crate::verify_resume::resumes_to_the_same_bits;
+use crate::verification::recorder::{largest_distance, solve};
+use crate::verification::verify_resume::resumes_to_the_same_bits;
 use solver::law::temperature::Temperature;
 use solver::scene::{
     Accuracy, Mechanism, MildOxidation, Motion, Quinn, Scene, Series, SevereOxidation, SpeedLaw,

@@ -5,9 +5,9 @@ use super::{
     ARCHARD, LONG, SHORT, TOLERANCE, check_refinement, check_swap, difference, integral,
     last_profile, reports, scene,
 };
-use crate::recorder::{depth_at, solve};
-use crate::scenes::partial_slip;
-use crate::verify_resume::resumes_to_the_same_bits;
+use crate::verification::recorder::{depth_at, solve};
+use crate::verification::scenes::partial_slip;
+use crate::verification::verify_resume::resumes_to_the_same_bits;
 use solver::law::temperature::Temperature;
 use solver::scene::{Friction, LoadRepetition, Motion, Rhee, Scene, StrainHardening, WearLaw};
 use solver::sides::{Side, Sides};
