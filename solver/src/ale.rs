@@ -11,11 +11,11 @@ use crate::model::{BodyModel, Model};
 use crate::scene::Accuracy;
 use crate::sides::{Side, Sides};
 
-pub use spines::Spines;
+pub(crate) use spines::Spines;
 pub(crate) use spines::WORN_THROUGH_SHARE;
 
 /// Returns `true` if the geometry has changed enough since the operators were built to rebuild them; worn depths in mm.
-pub fn has_drifted(model: &Model, depth: &Sides<Vec<f64>>, accuracy: &Accuracy) -> bool {
+pub(crate) fn has_drifted(model: &Model, depth: &Sides<Vec<f64>>, accuracy: &Accuracy) -> bool {
     let share = accuracy.drift_share();
     let drifted = |side: &Side| drift(model.bodies.of(*side), depth.of(*side), *side) > share;
     Side::BOTH.iter().any(drifted)

@@ -7,7 +7,7 @@ mod section;
 
 use serde::{Deserialize, Serialize};
 
-pub use earlier::EarlierRuns;
+pub(crate) use earlier::EarlierRuns;
 pub(crate) use earlier::Finished;
 pub use finite::{ExtrudedRun, FiniteRun, LineRun, PointRun};
 pub use mismatch::CheckpointMismatch;

@@ -10,7 +10,7 @@ mod assembly;
 mod body_operators;
 mod compliance;
 mod extruded;
-pub mod harmonic;
+pub(crate) mod harmonic;
 mod near_field;
 mod operator_error;
 mod prism_assembly;
@@ -25,12 +25,14 @@ use crate::threads::for_both;
 use assembly::Numbering;
 use std::sync::Arc;
 
-pub use antiplane::Antiplane;
+pub(crate) use antiplane::Antiplane;
 pub use body_operators::{BodyOperators, Operators};
-pub use compliance::{Compliance, Response};
-pub use extruded::{ExtrudedOperators, PrismZone, condense_extruded};
+pub(crate) use compliance::Compliance;
+pub use compliance::Response;
+pub(crate) use extruded::condense_extruded;
+pub use extruded::{ExtrudedOperators, PrismZone};
 pub use operator_error::OperatorError;
-pub use prism_interior::PrismInterior;
+pub(crate) use prism_interior::PrismInterior;
 pub use spreading::Spreading;
 pub use zone_operators::ZoneOperators;
 
@@ -123,7 +125,7 @@ impl Condensed {
 
     /// Resistance of both bodies around a contact between two places, mm, times the depth of the section over their resistivities, -;
     /// 0 where it is not part of the model.
-    pub fn spreading_ratios(&self, span: (f64, f64)) -> Sides<f64> {
+    pub(crate) fn spreading_ratios(&self, span: (f64, f64)) -> Sides<f64> {
         Sides::from_fn(|side| {
             let spreading = self.spreading.of(side).as_ref();
             let ratio = spreading.and_then(|known| known.ratio(self.operators.of(side), span));

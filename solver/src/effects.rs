@@ -114,7 +114,7 @@ impl EffectsPlan {
     }
 
     /// The decisions without their numbers.
-    pub fn verdicts(&self) -> Vec<(Effect, Verdict)> {
+    pub(crate) fn verdicts(&self) -> Vec<(Effect, Verdict)> {
         let decisions = self.decisions.iter();
         decisions
             .map(|decision| (decision.effect, decision.verdict))
@@ -129,7 +129,7 @@ impl EffectsPlan {
     }
 
     /// Relative change of the outputs by all skipped effects.
-    pub fn skipped_change(&self) -> f64 {
+    pub(crate) fn skipped_change(&self) -> f64 {
         counted(self.decisions.iter()).fold(0.0, |sum, (_, value)| sum + value)
     }
 
@@ -149,7 +149,7 @@ impl EffectsPlan {
 
     /// The skipped effects that the largest worn depths after so many physical cycles require, mm; a run goes back to the
     /// cycle before.
-    pub fn crossed(
+    pub(crate) fn crossed(
         &self,
         scene: &Scene,
         back_to: u64,
@@ -252,7 +252,7 @@ impl EffectsPlan {
 
     /// The skipped effects that a contact without a solution requires, after so many physical cycles: one that jams where
     /// every node has to slip may stick.
-    pub fn required_after_failure(&self, cycle: u64) -> Vec<Crossing> {
+    pub(crate) fn required_after_failure(&self, cycle: u64) -> Vec<Crossing> {
         let skipped = |effect: &Effect| {
             self.decision(*effect).is_some_and(|decision| {
                 decision.can_be_required() && decision.indicator().is_some()

@@ -97,7 +97,7 @@ impl Touching {
 
 /// State that the next resistance depends on.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct ElectricalState {
+pub(crate) struct ElectricalState {
     /// The last one; `None` where it is not computed.
     pub(crate) resistance: Option<ContactResistance>,
     /// Load of its contact, N.

@@ -1,20 +1,20 @@
 //! Finite elements of linear elasticity: an element is its data plus one function.
 
-pub mod harmonic;
-pub mod hex8;
-pub mod incompatible;
-pub mod quad4;
-pub mod tri3;
-pub mod wedge6;
+pub(crate) mod harmonic;
+pub(crate) mod hex8;
+pub(crate) mod incompatible;
+pub(crate) mod quad4;
+pub(crate) mod tri3;
+pub(crate) mod wedge6;
 
 use crate::law::elastic::Lame;
 use nalgebra::SMatrix;
 
 pub use hex8::Hex8;
-pub use incompatible::{hex_stiffness, quad_stiffness};
-pub use quad4::Quad4;
-pub use tri3::Tri3;
-pub use wedge6::Wedge6;
+pub(crate) use incompatible::{hex_stiffness, quad_stiffness};
+pub(crate) use quad4::Quad4;
+pub(crate) use tri3::Tri3;
+pub(crate) use wedge6::Wedge6;
 
 /// Above this Poisson's ratio the volumetric part is taken at its mean over the element (B-bar): from here on
 /// lambda > 9 mu, and a fully integrated quadrilateral begins to lock.

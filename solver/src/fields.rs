@@ -185,7 +185,7 @@ impl BodyFields {
 ///
 /// # Errors
 /// [`OperatorError`] if the mesh must be factored again and cannot be.
-pub fn recover(
+pub(crate) fn recover(
     model: &Model,
     condensed: &Condensed,
     side: Side,

@@ -14,7 +14,7 @@ pub fn linear(x: &[f64], y: &[f64], at: f64) -> f64 {
 }
 
 /// Value after a part of the way from one value to another, of what grows evenly; exactly the other one at the end.
-pub fn part_way(from: f64, to: f64, part: f64) -> f64 {
+pub(crate) fn part_way(from: f64, to: f64, part: f64) -> f64 {
     if part < 1.0 {
         from + part * (to - from)
     } else {

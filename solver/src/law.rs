@@ -3,7 +3,7 @@
 pub mod dose;
 pub mod elastic;
 pub mod friction;
-pub mod heating;
+pub(crate) mod heating;
 pub mod pace;
 pub mod plating;
 pub mod resistance;

@@ -2,22 +2,22 @@
 //! names the library behind it.
 
 mod blocked_lu;
-pub mod cholesky;
-pub mod condensed;
+pub(crate) mod cholesky;
+pub(crate) mod condensed;
 mod cross_approximation;
-pub mod dense;
+pub(crate) mod dense;
 mod hierarchical_system;
-pub mod hodlr;
-pub mod hodlr_lu;
-pub mod lemke;
-pub mod tridiagonal;
-pub mod vector;
+pub(crate) mod hodlr;
+pub(crate) mod hodlr_lu;
+pub(crate) mod lemke;
+pub(crate) mod tridiagonal;
+pub(crate) mod vector;
 
-pub use cholesky::{CholeskyFactor, CholeskyPattern, FactorError};
-pub use condensed::CondensedSystem;
-pub use cross_approximation::Entries;
-pub use dense::{DenseLu, SquareMatrix};
-pub use hierarchical_system::{Blocks, HierarchicalSystem};
-pub use hodlr::{Approximation, Hodlr, Triplets};
-pub use hodlr_lu::HodlrLu;
-pub use lemke::Lemke;
+pub(crate) use cholesky::{CholeskyFactor, CholeskyPattern, FactorError};
+pub(crate) use condensed::CondensedSystem;
+pub(crate) use cross_approximation::Entries;
+pub(crate) use dense::{DenseLu, SquareMatrix};
+pub(crate) use hierarchical_system::{Blocks, HierarchicalSystem};
+pub(crate) use hodlr::{Approximation, Hodlr};
+pub(crate) use hodlr_lu::HodlrLu;
+pub(crate) use lemke::Lemke;

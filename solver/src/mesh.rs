@@ -2,7 +2,7 @@
 //! shrinks to a point; prisms over such meshes. A mesh knows no law.
 
 pub mod columns;
-pub mod grading;
+pub(crate) mod grading;
 pub mod prisms;
 
 pub use columns::{ColumnMesh, Quality};

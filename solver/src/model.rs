@@ -158,7 +158,7 @@ impl BodyModel {
     ///
     /// # Errors
     /// [`MeshError::Inverted`] if an element would be inverted.
-    pub fn with_surface(&self, surface_y: Vec<f64>) -> Result<Self, MeshError> {
+    pub(crate) fn with_surface(&self, surface_y: Vec<f64>) -> Result<Self, MeshError> {
         let moved = |zone: &ZoneModel| {
             let at = zone.zone.spines.iter().map(|&i| surface_y[i]).collect();
             let mesh = zone.mesh.with_surface(at);

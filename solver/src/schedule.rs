@@ -6,7 +6,7 @@ pub mod increments;
 pub mod jump;
 pub(crate) mod mission;
 pub mod plan;
-pub mod replay;
+pub(crate) mod replay;
 pub(crate) mod step;
 pub mod stops;
 pub(crate) mod stroke;

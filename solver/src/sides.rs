@@ -33,7 +33,7 @@ impl Side {
     }
 
     /// Direction along y in which the surface recedes as it wears: +1 above the contact, -1 below.
-    pub fn recession(self) -> f64 {
+    pub(crate) fn recession(self) -> f64 {
         match self {
             Self::Slider => 1.0,
             Self::Receptacle => -1.0,
@@ -115,7 +115,7 @@ impl<T, E> Sides<Result<T, E>> {
 
 impl Sides<Vec<f64>> {
     /// Borrows both as slices.
-    pub fn as_slices(&self) -> Sides<&[f64]> {
+    pub(crate) fn as_slices(&self) -> Sides<&[f64]> {
         Sides {
             slider: &self.slider,
             receptacle: &self.receptacle,
@@ -129,7 +129,7 @@ impl Sides<Vec<f64>> {
     }
 
     /// Largest value of each side, at least 0.
-    pub fn largest_of_each(&self) -> Sides<f64> {
+    pub(crate) fn largest_of_each(&self) -> Sides<f64> {
         self.as_ref()
             .map(|values| values.iter().fold(0.0, |m: f64, value| m.max(*value)))
     }

@@ -42,5 +42,7 @@ pub use error::StationError;
 pub(crate) use integrator::LineIntegrator;
 pub use record::{StationOutcome, StationSummary};
 pub use run::run;
-pub use scene::{StationScene, stations_for};
+pub use scene::StationScene;
+#[cfg(test)]
+pub(crate) use scene::stations_for;
 pub use state::LineState;

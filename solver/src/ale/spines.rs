@@ -8,11 +8,11 @@ pub(crate) const WORN_THROUGH_SHARE: f64 = 0.03;
 
 /// Unworn lengths of the spines under the contact nodes, mm.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Spines(Sides<Vec<f64>>);
+pub(crate) struct Spines(Sides<Vec<f64>>);
 
 impl Spines {
     /// Spines of a model.
-    pub fn of(model: &Model) -> Self {
+    pub(crate) fn of(model: &Model) -> Self {
         let lengths = |body: &BodyModel| {
             let length = |x: &f64| (body.layout.far_y - body.layout.profile.height(*x)).abs();
             body.contact_x().iter().map(length).collect()
@@ -26,7 +26,7 @@ impl Spines {
     }
 
     /// Returns `true` if a body is nearly consumed somewhere at these worn depths, mm.
-    pub fn are_worn_through(&self, depth: &Sides<Vec<f64>>) -> bool {
+    pub(crate) fn are_worn_through(&self, depth: &Sides<Vec<f64>>) -> bool {
         Side::BOTH.into_iter().any(|side| {
             let spines = self.0.of(side).iter().zip(depth.of(side));
             // Counted, since a loop that may end early is not vectorised.

@@ -7,7 +7,7 @@ use crate::sides::Sides;
 
 /// Runs of a scene before the present one.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct EarlierRuns {
+pub(crate) struct EarlierRuns {
     /// Histories that the error is estimated by; `None` for a run without a solution.
     pub(crate) runs: Vec<Option<Compared>>,
     /// The delivered run, while its companions are solved.

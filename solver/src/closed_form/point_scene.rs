@@ -207,7 +207,7 @@ impl PointScene {
     /// Displacement at which the unworn contact begins to slip as a whole, mm: 3 mu F/(16 a) times the sum of (2 - nu)/G over both bodies
     /// for a circle of the half-length a (Johnson 1985, eq. 7.42), here the mean sqrt(ab) of an ellipse. Amplitudes that are not well
     /// beyond it are in partial slip.
-    pub fn onset_of_gross_slip_mm(&self) -> f64 {
+    pub(crate) fn onset_of_gross_slip_mm(&self) -> f64 {
         let (along, across) = self.half_lengths_mm();
         let compliances = self.bodies.as_ref().map(|body| {
             let elastic = body.elastic;

@@ -15,7 +15,7 @@ use crate::sides::Side;
 
 /// The factored mesh of a zone.
 #[derive(Debug)]
-pub struct Antiplane {
+pub(crate) struct Antiplane {
     unknown: Vec<usize>,
     first_contact: usize,
     /// `None` of a body whose nodes are all guided: nothing moves along the line.
@@ -28,7 +28,7 @@ impl Antiplane {
     ///
     /// # Errors
     /// [`OperatorError`] if an element is inverted or the body is not held.
-    pub fn of(zone: &ZoneModel, side: Side) -> Result<Self, OperatorError> {
+    pub(crate) fn of(zone: &ZoneModel, side: Side) -> Result<Self, OperatorError> {
         let body = side.name();
         let (unknown, order, retained) = numbering(zone);
         let factor = match zone.support {
@@ -51,7 +51,7 @@ impl Antiplane {
     }
 
     /// Displacements of all nodes along the line, mm, under forces along it on the contact nodes of the zone, N/mm.
-    pub fn displacements(&self, contact_force: &[f64]) -> Vec<f64> {
+    pub(crate) fn displacements(&self, contact_force: &[f64]) -> Vec<f64> {
         let Some(factor) = &self.factor else {
             return vec![0.0; self.unknown.len()];
         };

@@ -29,7 +29,7 @@ impl BodyOperators {
     }
 
     /// Number of the same zone.
-    pub fn zone_number(&self, range: &Range<usize>) -> Option<usize> {
+    pub(crate) fn zone_number(&self, range: &Range<usize>) -> Option<usize> {
         let clearances = self.zones.iter().enumerate().filter_map(|(number, zone)| {
             let clearance = zone.clearance(range, self.x.len())?;
             Some((clearance, number))

@@ -12,7 +12,7 @@ const COMPRESSION: Approximation = Approximation {
 
 /// Displacements of contact nodes per force at contact nodes, mm per N/mm: by columns, u_x and u_y of each node.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Compliance {
+pub(crate) struct Compliance {
     nodes: usize,
     columns: Vec<f64>,
 }
@@ -30,12 +30,12 @@ impl Compliance {
     }
 
     /// Number of contact nodes.
-    pub fn nodes(&self) -> usize {
+    pub(crate) fn nodes(&self) -> usize {
         self.nodes
     }
 
     /// The response of a range of nodes to a force at a node.
-    pub fn to_force_at(&self, node: usize, of: &Range<usize>) -> Response<'_> {
+    pub(crate) fn to_force_at(&self, node: usize, of: &Range<usize>) -> Response<'_> {
         [2 * node, 2 * node + 1].map(|column| {
             let begin = 2 * column * self.nodes;
             &self.columns[begin + 2 * of.start..begin + 2 * of.end]
@@ -43,7 +43,7 @@ impl Compliance {
     }
 
     /// Displacement of surface unknown `row` = 2 i + d per force at unknown `column` = 2 j + e.
-    pub fn get(&self, row: usize, column: usize) -> f64 {
+    pub(crate) fn get(&self, row: usize, column: usize) -> f64 {
         self.columns[2 * column * self.nodes + row]
     }
 

@@ -52,7 +52,7 @@ impl PrismZone {
     }
 
     /// The response of a range of nodes of a section to a line force at a node of another.
-    pub fn to_force_at(
+    pub(crate) fn to_force_at(
         &self,
         section: usize,
         node: usize,
@@ -65,7 +65,7 @@ impl PrismZone {
     }
 
     /// Displacement of a node of a section per unit of normal load on the far face, mm per N/mm.
-    pub fn under_load(&self, section: usize, node: usize) -> [f64; 2] {
+    pub(crate) fn under_load(&self, section: usize, node: usize) -> [f64; 2] {
         let at = 2 * (section * self.nodes + node - self.first);
         [self.load_response[at], self.load_response[at + 1]]
     }
@@ -84,7 +84,7 @@ impl ExtrudedOperators {
     }
 
     /// The number of that zone.
-    pub fn zone_number(&self, side: Side, range: &Range<usize>) -> Option<usize> {
+    pub(crate) fn zone_number(&self, side: Side, range: &Range<usize>) -> Option<usize> {
         let (zones, surface) = (self.zones.of(side).iter(), self.sections.of(side).x.len());
         let clearances = zones
             .enumerate()
@@ -97,7 +97,7 @@ impl ExtrudedOperators {
     ///
     /// # Errors
     /// [`OperatorError`] if an element is inverted or the body is not held.
-    pub fn interior(
+    pub(crate) fn interior(
         &self,
         models: &[Model],
         planes: &NodePlanes,
@@ -117,7 +117,7 @@ impl ExtrudedOperators {
 ///
 /// # Errors
 /// [`OperatorError`] if an element is inverted or a body is not held.
-pub fn condense_extruded(
+pub(crate) fn condense_extruded(
     models: &[Model],
     planes: &NodePlanes,
     ends: Ends,

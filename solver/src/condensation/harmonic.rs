@@ -18,7 +18,7 @@ use crate::sides::Side;
 
 /// Boundary condition on the far face of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FarFace {
+pub(crate) enum FarFace {
     /// All displacements are zero.
     Held,
     /// Those in its plane are zero; an even pressure acts on it.
@@ -32,7 +32,7 @@ pub enum FarFace {
 ///
 /// # Errors
 /// [`OperatorError`] if an element is inverted or reaches over the axis of a ring.
-pub fn harmonic_compliances(
+pub(crate) fn harmonic_compliances(
     body: &BodyModel,
     side: Side,
     half_width: f64,

@@ -14,7 +14,7 @@ use crate::sides::Side;
 
 /// A factored mesh of prisms.
 #[derive(Debug)]
-pub struct PrismInterior {
+pub(crate) struct PrismInterior {
     pub(super) numbering: PrismNumbering,
     pub(super) factor: CholeskyFactor,
     /// Nodal forces of a unit of load on the far face, N per N/mm; zero where that is held.
@@ -66,7 +66,7 @@ pub(super) fn factor(
 impl PrismInterior {
     /// Displacements of all nodes, section by section, mm, under line forces on the contact nodes of the zone in each section (x, y for each,
     /// N/mm) and a normal load on the far face where that carries one, N/mm.
-    pub fn displacements(&self, line_forces: &[&[f64]], load: f64) -> Vec<[f64; 3]> {
+    pub(crate) fn displacements(&self, line_forces: &[&[f64]], load: f64) -> Vec<[f64; 3]> {
         let mut u: Vec<f64> = self.far_load.iter().map(|f| load * f).collect();
         let sections = line_forces.iter().zip(&self.lengths);
         let nodal = sections.flat_map(|(forces, length)| forces.iter().map(move |f| length * f));

@@ -37,14 +37,14 @@ impl ZoneOperators {
     }
 
     /// The response of a range of its nodes to a force at one of them.
-    pub fn to_force_at(&self, node: usize, of: &Range<usize>) -> Response<'_> {
+    pub(crate) fn to_force_at(&self, node: usize, of: &Range<usize>) -> Response<'_> {
         let of = of.start - self.first..of.end - self.first;
         self.compliance.to_force_at(node - self.first, &of)
     }
 
     /// Adds to the displacements of some of its nodes (x, y of each) those by forces at others, in an effort that grows little more
     /// than linearly with their number.
-    pub fn add_displacements(
+    pub(crate) fn add_displacements(
         &self,
         from: &Range<usize>,
         forces: &[f64],
@@ -64,7 +64,7 @@ impl ZoneOperators {
     }
 
     /// Displacement of one of its nodes per unit of normal load on the far face, mm per N/mm.
-    pub fn under_load(&self, node: usize) -> [f64; 2] {
+    pub(crate) fn under_load(&self, node: usize) -> [f64; 2] {
         let at = 2 * (node - self.first);
         [self.load_response[at], self.load_response[at + 1]]
     }

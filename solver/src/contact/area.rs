@@ -14,12 +14,11 @@ mod preconditioner;
 mod tangential;
 
 pub use cells::Cells;
-pub use convolution::{Convolution, Parity};
+pub use convolution::Parity;
 pub use error::AreaError;
-pub use kernel::{ShearCompliance, normal_influence};
+pub use kernel::ShearCompliance;
 pub use normal::{
     MOST_ITERATIONS, NormalContact, NormalProblem, NormalSolution, RESIDUAL_TOLERANCE,
 };
-pub use tangential::{
-    MOST_TANGENTIAL_ITERATIONS, SHEAR_TOLERANCE, Shear, Slip, TangentialContact, TangentialError,
-};
+pub(crate) use tangential::TangentialContact;
+pub use tangential::{MOST_TANGENTIAL_ITERATIONS, SHEAR_TOLERANCE, Shear, Slip, TangentialError};

@@ -28,4 +28,5 @@ mod response;
 mod wear;
 
 pub use bodies::{Extruded, Slide};
-pub use increment::{ExtrudedSolver, PlaneWear, Solved};
+pub(crate) use increment::ExtrudedSolver;
+pub use increment::{PlaneWear, Solved};

@@ -17,7 +17,7 @@ use crate::law::elastic::Lame;
 
 /// Waves along a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Waves {
+pub(crate) struct Waves {
     /// k, 1/mm.
     pub per_mm: f64,
     /// R, mm; `None` of a straight line.
@@ -29,7 +29,7 @@ type Strains = SMatrix<f64, 6, 3>;
 
 /// Blocks K_ab between the nodes a and b of an element, U, V and W of each, N/mm per mm of the line; `None` if the element is inverted, or
 /// reaches over the axis of the ring.
-pub fn harmonic_stiffness<E: Element<N, 2>, const N: usize>(
+pub(crate) fn harmonic_stiffness<E: Element<N, 2>, const N: usize>(
     nodes: &[[f64; 2]; N],
     lame: Lame,
     b_bar: bool,

@@ -13,17 +13,25 @@ use super::{Element, Hex8, Quad4, Stiffness, dot, physical_gradient, stiffness};
 use crate::law::elastic::Lame;
 
 /// Stiffness of a quadrilateral with incompatible modes, as [`stiffness`] returns it.
-pub fn quad_stiffness(nodes: &[[f64; 2]; 4], lame: Lame, b_bar: bool) -> Option<Stiffness<4, 2>> {
+pub(crate) fn quad_stiffness(
+    nodes: &[[f64; 2]; 4],
+    lame: Lame,
+    b_bar: bool,
+) -> Option<Stiffness<4, 2>> {
     condensed::<Quad4, 4, 2, 8, 4>(nodes, lame, b_bar)
 }
 
 /// Stiffness of a hexahedron with incompatible modes, as [`stiffness`] returns it.
-pub fn hex_stiffness(nodes: &[[f64; 3]; 8], lame: Lame, b_bar: bool) -> Option<Stiffness<8, 3>> {
+pub(crate) fn hex_stiffness(
+    nodes: &[[f64; 3]; 8],
+    lame: Lame,
+    b_bar: bool,
+) -> Option<Stiffness<8, 3>> {
     condensed::<Hex8, 8, 3, 24, 9>(nodes, lame, b_bar)
 }
 
 /// Amplitudes a_1 and a_2 of the modes of a quadrilateral under nodal displacements, mm; `None` if the element is inverted.
-pub fn amplitudes(
+pub(crate) fn amplitudes(
     nodes: &[[f64; 2]; 4],
     lame: Lame,
     b_bar: bool,
@@ -33,7 +41,7 @@ pub fn amplitudes(
 }
 
 /// Amplitudes a_1, a_2 and a_3 of the modes of a hexahedron under nodal displacements, mm; `None` if the element is inverted.
-pub fn hex_amplitudes(
+pub(crate) fn hex_amplitudes(
     nodes: &[[f64; 3]; 8],
     lame: Lame,
     b_bar: bool,
@@ -117,7 +125,7 @@ fn integrate<E: Element<N, D>, const N: usize, const D: usize, const U: usize, c
 
 /// Gradients of the modes at a reference point, for the determinant of the Jacobian there; `None` if the element is
 /// inverted.
-pub fn mode_gradients<E: Element<N, D>, const N: usize, const D: usize>(
+pub(crate) fn mode_gradients<E: Element<N, D>, const N: usize, const D: usize>(
     nodes: &[[f64; D]; N],
     xi: [f64; D],
     det: f64,

@@ -4,7 +4,7 @@ use super::Element;
 
 /// Four-node quadrilateral, nodes counter-clockwise.
 #[derive(Debug, Clone, Copy)]
-pub struct Quad4;
+pub(crate) struct Quad4;
 
 /// 1/sqrt(3): two-point Gauss rule.
 const G: f64 = 0.577_350_269_189_625_8;

@@ -4,7 +4,7 @@ use super::Element;
 
 /// Three-node triangle, nodes counter-clockwise.
 #[derive(Debug, Clone, Copy)]
-pub struct Tri3;
+pub(crate) struct Tri3;
 
 impl Element<3, 2> for Tri3 {
     const CORNERS: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];

@@ -7,7 +7,7 @@ use super::{Element, Tri3};
 
 /// Six-node wedge: a triangle, nodes counter-clockwise, at zeta = -1, then the same at zeta = 1.
 #[derive(Debug, Clone, Copy)]
-pub struct Wedge6;
+pub(crate) struct Wedge6;
 
 /// 1/sqrt(3): two-point Gauss rule.
 const G: f64 = 0.577_350_269_189_625_8;

@@ -26,7 +26,7 @@ impl DoseCurve {
     }
 
     /// Specific wear rate of the unworn surface, 1/MPa.
-    pub fn initial_rate(&self) -> f64 {
+    pub(crate) fn initial_rate(&self) -> f64 {
         match self {
             Self::Layers(layers) => layers.outer_rate(),
             Self::Barwell(law) => law.rate_per_mpa,
@@ -34,7 +34,7 @@ impl DoseCurve {
     }
 
     /// Largest specific wear rate from the surface down to a depth in mm, 1/MPa.
-    pub fn largest_rate(&self, depth: f64) -> f64 {
+    pub(crate) fn largest_rate(&self, depth: f64) -> f64 {
         match self {
             Self::Layers(layers) => layers.largest_rate(depth),
             Self::Barwell(law) => law.largest_rate(depth),
@@ -42,7 +42,7 @@ impl DoseCurve {
     }
 
     /// Depth by which a dose in MPa mm recedes a surface that is worn to a depth, mm, and the rate that it ends with, 1/MPa.
-    pub fn recession(&self, depth: f64, dose: f64) -> (f64, f64) {
+    pub(crate) fn recession(&self, depth: f64, dose: f64) -> (f64, f64) {
         match self {
             Self::Layers(layers) => layers.recession(depth, dose),
             Self::Barwell(law) => law.recession(depth, dose),

@@ -33,7 +33,7 @@ impl From<Elastic> for Lame {
 }
 
 /// Compliance of a body in plane strain, 1/MPa: (1 - nu^2)/E.
-pub fn plane_strain_compliance(m: Elastic) -> f64 {
+pub(crate) fn plane_strain_compliance(m: Elastic) -> f64 {
     (1.0 - m.poisson_ratio * m.poisson_ratio) / m.youngs_modulus_mpa
 }
 
@@ -47,7 +47,7 @@ pub fn contact_modulus(a: Elastic, b: Elastic) -> f64 {
 /// each other,
 ///   beta = [(1 - 2 nu_a)/G_a - (1 - 2 nu_b)/G_b] / (2 [(1 - nu_a)/G_a + (1 - nu_b)/G_b])
 /// (Johnson 1985, eq. 5.3); 0 for equal bodies. A body that is held along x does not spread: its term above is 0.
-pub fn dundurs_beta(a: Elastic, b: Elastic, held: [bool; 2]) -> f64 {
+pub(crate) fn dundurs_beta(a: Elastic, b: Elastic, held: [bool; 2]) -> f64 {
     let terms = |body: Elastic, held: bool| {
         let (shear, nu) = (Lame::from(body).mu, body.poisson_ratio);
         let spread = if held { 0.0 } else { (1.0 - 2.0 * nu) / shear };

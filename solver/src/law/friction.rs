@@ -80,7 +80,7 @@ impl Friction {
     }
 
     /// Returns `true` if the coefficient follows from how far a side has worn, where it wears.
-    pub fn follows_wear_of(&self, side: Side) -> bool {
+    pub(crate) fn follows_wear_of(&self, side: Side) -> bool {
         match self {
             Self::Frictionless | Self::Coulomb { .. } | Self::ByCycle(_) => false,
             Self::ByDose(table) => table.changes(),
@@ -101,7 +101,7 @@ impl Friction {
 }
 
 /// Coefficient of the contact of two surfaces, -: the mean of both, or that of the only one that has one.
-pub fn of_both(surfaces: Sides<Option<f64>>) -> Option<f64> {
+pub(crate) fn of_both(surfaces: Sides<Option<f64>>) -> Option<f64> {
     match (surfaces.slider, surfaces.receptacle) {
         (Some(slider), Some(receptacle)) => Some(0.5 * (slider + receptacle)),
         (slider, receptacle) => slider.or(receptacle),
@@ -109,7 +109,7 @@ pub fn of_both(surfaces: Sides<Option<f64>>) -> Option<f64> {
 }
 
 /// Mean of coefficients, -, with weights; the first one where no weight counts. Exact where all are the same.
-pub fn weighted_mean(coefficients: &[f64], weights: impl Iterator<Item = f64>) -> f64 {
+pub(crate) fn weighted_mean(coefficients: &[f64], weights: impl Iterator<Item = f64>) -> f64 {
     let first = coefficients.first().copied().unwrap_or(0.0);
     let (mut sum, mut total) = (0.0, 0.0);
     for (coefficient, weight) in coefficients.iter().zip(weights) {

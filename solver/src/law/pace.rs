@@ -14,7 +14,7 @@ pub struct Pace {
 
 impl Pace {
     /// Pace of a speed in mm/s; none of a motion that stands still, in which nothing slips.
-    pub fn at_speed(mm_s: f64) -> Self {
+    pub(crate) fn at_speed(mm_s: f64) -> Self {
         Self {
             s_per_mm: if mm_s > 0.0 { 1.0 / mm_s } else { 0.0 },
             cycles_per_mm: 0.0,

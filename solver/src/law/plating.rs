@@ -60,7 +60,7 @@ impl Layers {
 
     /// The layers with each rate divided by the ratio of its hardness.
     #[must_use]
-    pub fn softened(mut self, ratio: impl Fn(usize) -> f64) -> Self {
+    pub(crate) fn softened(mut self, ratio: impl Fn(usize) -> f64) -> Self {
         for (layer, rate) in self.rate[..=self.count].iter_mut().enumerate() {
             *rate /= ratio(layer);
         }
@@ -89,14 +89,14 @@ impl Layers {
     }
 
     /// Largest specific wear rate from the surface down to a depth in mm, 1/MPa.
-    pub fn largest_rate(&self, depth: f64) -> f64 {
+    pub(crate) fn largest_rate(&self, depth: f64) -> f64 {
         self.rate[..=self.at(depth)]
             .iter()
             .fold(0.0, |most, rate| rate.max(most))
     }
 
     /// Depth by which a dose in MPa mm recedes a surface that is worn to a depth, mm, and the rate that it ends with, 1/MPa.
-    pub fn recession(&self, depth: f64, dose: f64) -> (f64, f64) {
+    pub(crate) fn recession(&self, depth: f64, dose: f64) -> (f64, f64) {
         let first = self.at(depth);
         let (mut worn, mut left) = (0.0, dose);
         for i in first..self.count {

@@ -4,11 +4,12 @@
 
 mod disc_flux;
 pub mod film;
-pub mod layered;
+pub(crate) mod layered;
 pub mod spots;
 
 pub use film::{Film, Growth};
-pub use layered::{Conductor, half_space};
+pub use layered::Conductor;
+pub(crate) use layered::half_space;
 pub use spots::{Asperity, Deformation};
 
 #[cfg(test)]

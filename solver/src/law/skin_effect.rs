@@ -21,7 +21,7 @@ pub fn depth_mm(resistivity_ohm_m: f64, frequency_hz: f64) -> f64 {
 }
 
 /// Resistance of a round wire over that to direct current, -, for its radius over the skin depth.
-pub fn wire_ratio(radius_over_depth: f64) -> f64 {
+pub(crate) fn wire_ratio(radius_over_depth: f64) -> f64 {
     if radius_over_depth > LARGE {
         return 0.5 * radius_over_depth + 0.25 + 3.0 / (32.0 * radius_over_depth);
     }

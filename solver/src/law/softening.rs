@@ -40,7 +40,7 @@ impl Softening {
     }
 
     /// Least distance to a melting temperature, K, if one is known.
-    pub fn margin_k(&self) -> Option<f64> {
+    pub(crate) fn margin_k(&self) -> Option<f64> {
         self.margins_k.iter().copied().flatten().reduce(f64::min)
     }
 
@@ -70,7 +70,7 @@ impl Softening {
 /// Distance to the melting temperature of each layer from the surface down, then of the base, K; without bound of one whose wear does not
 /// depend on its hardness, or is not known to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Margins(pub(crate) [f64; MOST_LAYERS + 1]);
+pub(crate) struct Margins(pub(crate) [f64; MOST_LAYERS + 1]);
 
 impl Margins {
     /// The hardness of a layer that is warmer by a rise in K over that before, -.

@@ -55,7 +55,7 @@ impl SurfaceWear {
     }
 
     /// Volume by Archard's identity, rate times work of the normal force in N mm, mm^3: 0 without wear, `None` where the rate varies.
-    pub fn volume_by_work(wear: Option<Self>, work: f64) -> Option<f64> {
+    pub(crate) fn volume_by_work(wear: Option<Self>, work: f64) -> Option<f64> {
         let rate = wear.map_or(Some(0.0), Self::uniform);
         rate.map(|rate| rate * work)
     }
@@ -134,7 +134,7 @@ impl SurfaceWear {
     }
 
     /// The rate at which the equivalent grows by p |ds| in a representative state, 1/MPa, where it is no depth.
-    pub fn equivalent_rate(self, at: LocalState) -> Option<f64> {
+    pub(crate) fn equivalent_rate(self, at: LocalState) -> Option<f64> {
         match self {
             Self::Law(_) => None,
             Self::ByDose(curve) => Some(curve.initial_rate()),
@@ -143,23 +143,23 @@ impl SurfaceWear {
     }
 
     /// Returns `true` if it is by the time of slip.
-    pub fn is_by_time(self) -> bool {
+    pub(crate) fn is_by_time(self) -> bool {
         matches!(self, Self::Law(WearLaw::OfSpeed(law)) if law.is_by_time())
     }
 
     /// Returns `true` if a pass wears a flat floor evenly by distance or by time, so that jumps in grooves can extrapolate it.
-    pub fn is_even(self) -> bool {
+    pub(crate) fn is_even(self) -> bool {
         self.uniform().is_some() || self.dose_curve().is_some() || self.is_by_time()
     }
 
     /// Returns `true` if the wear of a pass is in proportion to its load, however this is distributed.
-    pub fn is_proportional(self) -> bool {
+    pub(crate) fn is_proportional(self) -> bool {
         !matches!(self, Self::ByPower { .. })
     }
 
     /// The specific wear rate whose product with load and distance is the worn area of whole cycles at a mean pace, 1/MPa, if there
     /// is one.
-    pub fn area_rate(self, mean: Pace) -> Option<f64> {
+    pub(crate) fn area_rate(self, mean: Pace) -> Option<f64> {
         if self.is_by_time() {
             self.during(mean, 0.0).uniform()
         } else {
@@ -177,7 +177,7 @@ impl SurfaceWear {
     }
 
     /// The curve of its depth over the dose, if it has one.
-    pub fn dose_curve(self) -> Option<DoseCurve> {
+    pub(crate) fn dose_curve(self) -> Option<DoseCurve> {
         match self {
             Self::Law(_) | Self::ByPower { .. } => None,
             Self::ByDose(curve) => Some(curve),
@@ -193,7 +193,7 @@ impl SurfaceWear {
     }
 
     /// Largest specific wear rate from the surface down to a depth in mm, at a representative state, 1/MPa.
-    pub fn largest_rate(self, depth: f64, at: LocalState) -> f64 {
+    pub(crate) fn largest_rate(self, depth: f64, at: LocalState) -> f64 {
         match self {
             Self::Law(law) => law.rate(at).value,
             Self::ByDose(curve) => curve.largest_rate(depth),
@@ -204,7 +204,7 @@ impl SurfaceWear {
 
     /// Mean specific wear rate from the surface down to a depth in mm, at a representative state, 1/MPa; 0 for a depth that wear
     /// does not reach.
-    pub fn mean_rate(self, depth: f64, at: LocalState) -> f64 {
+    pub(crate) fn mean_rate(self, depth: f64, at: LocalState) -> f64 {
         match self {
             Self::Law(law) => law.rate(at).value,
             Self::ByDose(curve) => {
@@ -252,7 +252,7 @@ impl SurfaceWear {
     }
 
     /// Specific wear rate at a depth in mm over that of the unworn surface, -.
-    pub fn relative_rate(self, depth: f64) -> f64 {
+    pub(crate) fn relative_rate(self, depth: f64) -> f64 {
         match self {
             Self::Law(_) => 1.0,
             Self::ByDose(curve) => curve.rate(depth) / curve.initial_rate(),
@@ -262,7 +262,7 @@ impl SurfaceWear {
 }
 
 /// Equivalents of the depths of a surface, mm.
-pub fn equivalents(wear: Option<SurfaceWear>, depth: &[f64]) -> Cow<'_, [f64]> {
+pub(crate) fn equivalents(wear: Option<SurfaceWear>, depth: &[f64]) -> Cow<'_, [f64]> {
     match wear.filter(|wear| wear.depends_on_depth()) {
         None => Cow::Borrowed(depth),
         Some(wear) => depth.iter().map(|depth| wear.equivalent(*depth)).collect(),
@@ -312,7 +312,7 @@ pub(crate) fn between(
 }
 
 /// Values at the nodes of a surface times the rates at their depths in mm over that of the unworn surface.
-pub fn at_relative_rates<'a>(
+pub(crate) fn at_relative_rates<'a>(
     wear: Option<SurfaceWear>,
     values: &'a [f64],
     depth: &[f64],

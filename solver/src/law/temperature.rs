@@ -19,7 +19,7 @@ impl Temperature {
 
     /// The temperature of a contact that is warmer than its surroundings by a rise in K.
     #[must_use]
-    pub fn raised(self, rise_k: f64) -> Self {
+    pub(crate) fn raised(self, rise_k: f64) -> Self {
         match self {
             Self::OfContact(_) => self,
             Self::OfSurroundings(kelvin) => Self::OfSurroundings(kelvin + rise_k),

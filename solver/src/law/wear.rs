@@ -23,7 +23,7 @@ pub mod sarkar;
 pub mod severe_oxidation;
 pub mod speed;
 pub mod strain_hardening;
-pub mod surface_state;
+pub(crate) mod surface_state;
 
 use barwell::Barwell;
 use power::PowerLaw;
@@ -112,7 +112,7 @@ impl WearLaw {
     }
 
     /// Returns `true` if its constants hold at a temperature that is given for the contact, which no further heat changes.
-    pub fn has_given_temperature(self) -> bool {
+    pub(crate) fn has_given_temperature(self) -> bool {
         matches!(self, Self::OfSpeed(law) if law.has_given_temperature())
     }
 
@@ -129,7 +129,7 @@ impl WearLaw {
     /// The law at another hardness than it was given with; the energy that detaches a volume, and laws
     /// without a hardness, do not depend on it.
     #[must_use]
-    pub fn softened(self, ratio: f64) -> Self {
+    pub(crate) fn softened(self, ratio: f64) -> Self {
         match self {
             Self::Archard { k_over_h_per_mpa } => Self::Archard {
                 k_over_h_per_mpa: k_over_h_per_mpa / ratio,
@@ -162,7 +162,7 @@ impl WearLaw {
 
     /// The law as it is at a pace.
     #[must_use]
-    pub fn at_pace(self, pace: Pace) -> Self {
+    pub(crate) fn at_pace(self, pace: Pace) -> Self {
         match self {
             Self::OfSpeed(law) => Self::Archard {
                 k_over_h_per_mpa: law.rate(pace),

@@ -37,7 +37,7 @@ pub enum FactorError {
 
 /// Where a symmetric matrix has entries (lower triangle by columns), analysed once for many factorisations.
 #[derive(Debug)]
-pub struct CholeskyPattern {
+pub(crate) struct CholeskyPattern {
     matrix: SymbolicSparseColMat<usize>,
     symbolic: SymbolicCholesky<usize>,
     retained: usize,
@@ -45,7 +45,7 @@ pub struct CholeskyPattern {
 
 /// A factored matrix.
 #[derive(Debug)]
-pub struct CholeskyFactor {
+pub(crate) struct CholeskyFactor {
     pattern: Arc<CholeskyPattern>,
     values: Vec<f64>,
 }
@@ -55,7 +55,7 @@ impl CholeskyPattern {
     ///
     /// # Errors
     /// [`FactorError::Pattern`] if the analysis fails.
-    pub fn new(
+    pub(crate) fn new(
         column_starts: Vec<usize>,
         rows: Vec<usize>,
         retained: usize,
@@ -86,7 +86,7 @@ impl CholeskyPattern {
     ///
     /// # Errors
     /// [`FactorError::NotPositiveDefinite`].
-    pub fn factor(self: &Arc<Self>, values: &[f64]) -> Result<CholeskyFactor, FactorError> {
+    pub(crate) fn factor(self: &Arc<Self>, values: &[f64]) -> Result<CholeskyFactor, FactorError> {
         let mut factor = vec![0.0; self.symbolic.len_val()];
         let matrix = SparseColMatRef::new(self.matrix.as_ref(), values);
         let scratch = self
@@ -163,12 +163,12 @@ fn order_interior(
 
 impl CholeskyFactor {
     /// The pattern that was factored, for factoring it again with other values.
-    pub fn pattern(&self) -> &Arc<CholeskyPattern> {
+    pub(crate) fn pattern(&self) -> &Arc<CholeskyPattern> {
         &self.pattern
     }
 
     /// Inverse of the Schur complement of the retained unknowns: their compliance, symmetric.
-    pub fn retained_inverse(&self) -> SquareMatrix {
+    pub(crate) fn retained_inverse(&self) -> SquareMatrix {
         let retained = self.pattern.retained;
         let mut lower = SquareMatrix::zeros(retained);
         self.copy_trailing(&mut lower);
@@ -209,7 +209,7 @@ impl CholeskyFactor {
     }
 
     /// Overwrites `rhs` (all unknowns) with the solution.
-    pub fn solve(&self, rhs: &mut [f64]) {
+    pub(crate) fn solve(&self, rhs: &mut [f64]) {
         let symbolic = &self.pattern.symbolic;
         let mut memory = MemBuffer::new(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq));
         let n = rhs.len();

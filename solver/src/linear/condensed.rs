@@ -15,7 +15,7 @@ use faer::{Accum, MatMut, Par};
 
 /// A system condensed onto its border. Buffers are reused.
 #[derive(Default)]
-pub struct CondensedSystem {
+pub(crate) struct CondensedSystem {
     /// A's factors, A^-1 B, C and S in place of the system.
     matrix: SquareMatrix,
     core: usize,
@@ -26,13 +26,13 @@ pub struct CondensedSystem {
 
 impl CondensedSystem {
     /// The system to be written, of an order, with unspecified entries.
-    pub fn system(&mut self, order: usize) -> &mut SquareMatrix {
+    pub(crate) fn system(&mut self, order: usize) -> &mut SquareMatrix {
         self.matrix.reshape(order);
         &mut self.matrix
     }
 
     /// Condenses the system onto the unknowns after the first `core` ones. Where A is singular, solutions are not finite.
-    pub fn condense(&mut self, core: usize) {
+    pub(crate) fn condense(&mut self, core: usize) {
         let order = self.matrix.order();
         self.core = core;
         if core == 0 {
@@ -46,12 +46,12 @@ impl CondensedSystem {
     }
 
     /// Entry of the Schur complement.
-    pub fn schur(&self, row: usize, column: usize) -> f64 {
+    pub(crate) fn schur(&self, row: usize, column: usize) -> f64 {
         self.matrix.get(self.core + row, self.core + column)
     }
 
     /// Overwrites a right-hand side [f; g] with [A^-1 f; g - C A^-1 f].
-    pub fn eliminate(&mut self, rhs: &mut [f64]) {
+    pub(crate) fn eliminate(&mut self, rhs: &mut [f64]) {
         let core = self.core;
         if core == 0 {
             return;
@@ -70,7 +70,7 @@ impl CondensedSystem {
     }
 
     /// Overwrites [A^-1 f; y] with the solution [x; y].
-    pub fn substitute(&self, solution: &mut [f64]) {
+    pub(crate) fn substitute(&self, solution: &mut [f64]) {
         let (x, y) = solution.split_at_mut(self.core);
         vectorized(
             #[inline(always)]

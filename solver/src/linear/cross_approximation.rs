@@ -14,7 +14,7 @@ use std::ops::Range;
 const CHECKED_ROWS: usize = 6;
 
 /// A matrix whose entries are computed by rows and columns.
-pub trait Entries {
+pub(crate) trait Entries {
     /// Writes the entries of a row at a range of columns.
     fn row(&mut self, row: usize, columns: Range<usize>, entries: &mut [f64]);
 

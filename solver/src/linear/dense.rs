@@ -4,14 +4,14 @@ use super::vector::{add_scaled, vectorized};
 
 /// A square matrix, stored by columns.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct SquareMatrix {
+pub(crate) struct SquareMatrix {
     order: usize,
     values: Vec<f64>,
 }
 
 impl SquareMatrix {
     /// A zero matrix.
-    pub fn zeros(order: usize) -> Self {
+    pub(crate) fn zeros(order: usize) -> Self {
         Self {
             order,
             values: vec![0.0; order * order],
@@ -19,30 +19,30 @@ impl SquareMatrix {
     }
 
     /// Resizes to another order and sets all entries to zero; the allocation is reused.
-    pub fn reset(&mut self, order: usize) {
+    pub(crate) fn reset(&mut self, order: usize) {
         self.order = order;
         self.values.clear();
         self.values.resize(order * order, 0.0);
     }
 
     /// Resizes to another order with unspecified entries; the allocation is reused.
-    pub fn reshape(&mut self, order: usize) {
+    pub(crate) fn reshape(&mut self, order: usize) {
         self.order = order;
         self.values.resize(order * order, 0.0);
     }
 
     /// Number of rows.
-    pub fn order(&self) -> usize {
+    pub(crate) fn order(&self) -> usize {
         self.order
     }
 
     /// Entry (row, column).
-    pub fn get(&self, row: usize, column: usize) -> f64 {
+    pub(crate) fn get(&self, row: usize, column: usize) -> f64 {
         self.values[column * self.order + row]
     }
 
     /// Mutable entry (row, column).
-    pub fn at(&mut self, row: usize, column: usize) -> &mut f64 {
+    pub(crate) fn at(&mut self, row: usize, column: usize) -> &mut f64 {
         &mut self.values[column * self.order + row]
     }
 
@@ -57,19 +57,19 @@ impl SquareMatrix {
     }
 
     /// A column.
-    pub fn column(&self, column: usize) -> &[f64] {
+    pub(crate) fn column(&self, column: usize) -> &[f64] {
         &self.values[column * self.order..(column + 1) * self.order]
     }
 
     /// A mutable column.
-    pub fn column_mut(&mut self, column: usize) -> &mut [f64] {
+    pub(crate) fn column_mut(&mut self, column: usize) -> &mut [f64] {
         &mut self.values[column * self.order..(column + 1) * self.order]
     }
 }
 
 /// LU factorisation with partial pivoting of small dense systems, without allocating once its buffers have grown.
 #[derive(Debug, Default)]
-pub struct DenseLu {
+pub(crate) struct DenseLu {
     factors: SquareMatrix,
     /// Row of the matrix that became each row of the factors.
     permutation: Vec<usize>,
@@ -78,14 +78,14 @@ pub struct DenseLu {
 
 impl DenseLu {
     /// The matrix to be factored, of an order, with unspecified entries.
-    pub fn matrix(&mut self, order: usize) -> &mut SquareMatrix {
+    pub(crate) fn matrix(&mut self, order: usize) -> &mut SquareMatrix {
         self.factors.reshape(order);
         &mut self.factors
     }
 
     /// Factors the matrix by Gaussian elimination (Golub and Van Loan 2013, algorithm 3.4.1). Where it is singular, solutions
     /// are not finite.
-    pub fn factor(&mut self) {
+    pub(crate) fn factor(&mut self) {
         let n = self.factors.order;
         self.permutation.clear();
         self.permutation.extend(0..n);
@@ -124,7 +124,7 @@ impl DenseLu {
     }
 
     /// Overwrites a right-hand side with the solution; `false` if it is not finite.
-    pub fn solve(&mut self, rhs: &mut [f64]) -> bool {
+    pub(crate) fn solve(&mut self, rhs: &mut [f64]) -> bool {
         let n = self.factors.order;
         debug_assert!(rhs.len() == n, "one right-hand side of the matrix' order");
         substitute(&self.factors, &self.permutation, rhs, &mut self.permuted);

@@ -4,7 +4,7 @@ use super::vector::{add_scaled, dot, vectorized};
 use super::{Hodlr, HodlrLu, SquareMatrix};
 
 /// The blocks of a system [A B; C D].
-pub struct Blocks<'a> {
+pub(crate) struct Blocks<'a> {
     /// A, to be approximated.
     pub core: &'a mut Hodlr,
     /// B by columns.
@@ -17,7 +17,7 @@ pub struct Blocks<'a> {
 
 /// A system condensed onto its border. Buffers are reused.
 #[derive(Default)]
-pub struct HierarchicalSystem {
+pub(crate) struct HierarchicalSystem {
     core: HodlrLu,
     order: usize,
     /// B, then A^-1 B, by columns; C by rows; D, then S.
@@ -28,7 +28,7 @@ pub struct HierarchicalSystem {
 
 impl HierarchicalSystem {
     /// The core to be approximated, and the other blocks to be written, with unspecified entries: B by columns, C by rows, D.
-    pub fn blocks(&mut self, core: usize, border: usize) -> Blocks<'_> {
+    pub(crate) fn blocks(&mut self, core: usize, border: usize) -> Blocks<'_> {
         self.order = core;
         self.right.resize(core * border, 0.0);
         self.below.resize(core * border, 0.0);
@@ -42,7 +42,7 @@ impl HierarchicalSystem {
     }
 
     /// Condenses the system onto its border. Where A is singular, solutions are not finite.
-    pub fn condense(&mut self) {
+    pub(crate) fn condense(&mut self) {
         self.core.factor(&mut self.right);
         let Self {
             order,
@@ -65,12 +65,12 @@ impl HierarchicalSystem {
     }
 
     /// Entry of the Schur complement.
-    pub fn schur(&self, row: usize, column: usize) -> f64 {
+    pub(crate) fn schur(&self, row: usize, column: usize) -> f64 {
         self.corner.get(row, column)
     }
 
     /// Overwrites a right-hand side [f; g] with [A^-1 f; g - C A^-1 f].
-    pub fn eliminate(&mut self, rhs: &mut [f64]) {
+    pub(crate) fn eliminate(&mut self, rhs: &mut [f64]) {
         let (f, g) = rhs.split_at_mut(self.order);
         self.core.solve(f);
         vectorized(
@@ -84,7 +84,7 @@ impl HierarchicalSystem {
     }
 
     /// Overwrites [A^-1 f; y] with the solution [x; y].
-    pub fn substitute(&self, solution: &mut [f64]) {
+    pub(crate) fn substitute(&self, solution: &mut [f64]) {
         let (x, y) = solution.split_at_mut(self.order);
         vectorized(
             #[inline(always)]

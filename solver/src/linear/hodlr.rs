@@ -22,7 +22,7 @@ pub(super) struct LowRank {
 
 /// Accuracy of the approximation of blocks.
 #[derive(Debug, Clone, Copy)]
-pub struct Approximation {
+pub(crate) struct Approximation {
     /// Error over the norm of a block.
     pub tolerance: f64,
     /// True if all entries of a block are compared, not only those of its crosses.
@@ -32,7 +32,7 @@ pub struct Approximation {
 }
 
 /// A matrix of few entries beside its diagonal: row, column and value, by columns.
-pub type Triplets<'a> = &'a [(usize, usize, f64)];
+pub(crate) type Triplets<'a> = &'a [(usize, usize, f64)];
 
 /// Where the parts of a matrix are.
 #[derive(Debug, Clone, Default)]
@@ -57,7 +57,7 @@ impl Shape {
 
 /// A square matrix whose off-diagonal blocks have low rank. Buffers are reused.
 #[derive(Debug, Clone, Default)]
-pub struct Hodlr {
+pub(crate) struct Hodlr {
     pub(super) shape: Shape,
     /// Dense leaves, by columns, one after the other.
     pub(super) leaves: Vec<f64>,
@@ -70,7 +70,7 @@ pub struct Hodlr {
 
 impl Hodlr {
     /// Approximates a matrix: smooth entries, and few others beside the diagonal that are added to them.
-    pub fn approximate(
+    pub(crate) fn approximate(
         &mut self,
         order: usize,
         entries: &mut impl Entries,
@@ -167,7 +167,7 @@ impl Hodlr {
     }
 
     /// Adds to the rows of a range the product with values at a range of columns.
-    pub fn add_product(
+    pub(crate) fn add_product(
         &self,
         columns: &Range<usize>,
         values: &[f64],

@@ -12,7 +12,7 @@ use faer::{Accum, MatMut, MatRef, Par};
 
 /// Factors in place of a matrix. Buffers are reused.
 #[derive(Default)]
-pub struct HodlrLu {
+pub(crate) struct HodlrLu {
     /// Leaves hold their factors, blocks Y instead of U.
     matrix: Hodlr,
     leaf_exchanges: Vec<Exchanges>,
@@ -110,13 +110,13 @@ impl<'a> Pair<'a> {
 
 impl HodlrLu {
     /// The matrix to be approximated, as one that is not symmetric, and factored then.
-    pub fn matrix(&mut self) -> &mut Hodlr {
+    pub(crate) fn matrix(&mut self) -> &mut Hodlr {
         &mut self.matrix
     }
 
     /// Factors the matrix and overwrites right-hand sides, by columns, with the solutions. Where it is singular, these are not
     /// finite.
-    pub fn factor(&mut self, rhs: &mut [f64]) {
+    pub(crate) fn factor(&mut self, rhs: &mut [f64]) {
         let Self {
             matrix,
             leaf_exchanges,
@@ -178,7 +178,7 @@ impl HodlrLu {
     }
 
     /// Overwrites a right-hand side with the solution.
-    pub fn solve(&mut self, rhs: &mut [f64]) {
+    pub(crate) fn solve(&mut self, rhs: &mut [f64]) {
         let Self {
             matrix,
             leaf_exchanges,

@@ -17,7 +17,7 @@ const MOST_PIVOTS: usize = 30;
 
 /// Solves complementarity problems; its buffers are reused from call to call.
 #[derive(Debug, Default)]
-pub struct Lemke {
+pub(crate) struct Lemke {
     order: usize,
     /// Rows of the dictionary: coefficients of the nonbasic unknowns, of z0 at the end, then the constant.
     rows: Vec<f64>,
@@ -30,7 +30,7 @@ pub struct Lemke {
 impl Lemke {
     /// Returns z, or `None` if the method terminates on a ray. Ties and round-off can end it shortly before the
     /// solution: the result is a starting point for a method that checks the residual.
-    pub fn solve(&mut self, matrix: &SquareMatrix, q: &[f64]) -> Option<&[f64]> {
+    pub(crate) fn solve(&mut self, matrix: &SquareMatrix, q: &[f64]) -> Option<&[f64]> {
         let n = matrix.order();
         debug_assert!(q.len() == n, "one constant a row");
         self.assemble(matrix, q);

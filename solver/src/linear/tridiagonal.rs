@@ -2,7 +2,7 @@
 
 /// Solves A x = b by the factorization A = L D L^T; the diagonal is overwritten by D, b by x. The first and last entries
 /// beside the diagonal are `beside[0]` and `beside[n - 2]` for n unknowns.
-pub fn solve_tridiagonal(diagonal: &mut [f64], beside: &[f64], b: &mut [f64]) {
+pub(crate) fn solve_tridiagonal(diagonal: &mut [f64], beside: &[f64], b: &mut [f64]) {
     for i in 1..b.len() {
         let factor = beside[i - 1] / diagonal[i - 1];
         diagonal[i] -= factor * beside[i - 1];

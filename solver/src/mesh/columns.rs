@@ -78,7 +78,7 @@ impl ColumnMesh {
 
     /// The same topology with another surface.
     #[must_use]
-    pub fn with_surface(&self, surface_y: Vec<f64>) -> Self {
+    pub(crate) fn with_surface(&self, surface_y: Vec<f64>) -> Self {
         Self {
             surface_y,
             ..self.clone()
@@ -98,11 +98,6 @@ impl ColumnMesh {
     /// Positions of the spines, mm.
     pub fn x(&self) -> &[f64] {
         &self.x
-    }
-
-    /// Height of the far face, mm.
-    pub fn far_y(&self) -> f64 {
-        self.far_y
     }
 
     /// Heights of the surface nodes, mm.
@@ -197,7 +192,7 @@ impl ColumnMesh {
     ///
     /// # Errors
     /// [`MeshError::Inverted`] where a Jacobian is not positive.
-    pub fn scaled_jacobians(&self) -> Result<Vec<f64>, MeshError> {
+    pub(crate) fn scaled_jacobians(&self) -> Result<Vec<f64>, MeshError> {
         let nodes = self.coordinates();
         let scaled = |(element, cell): (usize, &Cell)| {
             let (scaled, corner) = match cell {

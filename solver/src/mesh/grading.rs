@@ -41,7 +41,7 @@ const LEAST_REST: f64 = 1e-6;
 ///
 /// The core is divided evenly. Beyond it the spacing grows by a fixed ratio per element, more slowly in the zone that
 /// the contact may reach later; the rest is scaled so that a node lies on the end.
-pub fn symmetric(half: f64, spacing: &Spacing) -> Vec<f64> {
+pub(crate) fn symmetric(half: f64, spacing: &Spacing) -> Vec<f64> {
     let core_half = spacing.core_half.min(half);
     let n_core = count_at_least(core_half / spacing.core - 1e-9);
     let mut right: Vec<f64> = (1..=n_core)
@@ -80,14 +80,14 @@ pub fn symmetric(half: f64, spacing: &Spacing) -> Vec<f64> {
 }
 
 /// Length that belongs to each of several places, ascending: half of the distances to its neighbours.
-pub fn tributary(x: &[f64]) -> Vec<f64> {
+pub(crate) fn tributary(x: &[f64]) -> Vec<f64> {
     (0..x.len())
         .map(|i| 0.5 * (x[(i + 1).min(x.len() - 1)] - x[i.saturating_sub(1)]))
         .collect()
 }
 
 /// Fractions 0 = surface .. 1 = far face of layers that begin with `first` of a height 1 and grow by about `growth`.
-pub fn layers(first: f64, growth: f64) -> Vec<f64> {
+pub(crate) fn layers(first: f64, growth: f64) -> Vec<f64> {
     let first = first.clamp(1e-9, 1.0);
     let n = count_at_least((1.0 + (growth - 1.0) / first).ln() / growth.ln() - 0.5);
     let ratio = ratio_of_sum(first, n);

@@ -139,7 +139,7 @@ impl BodyLayout {
     }
 
     /// Heights of the surface nodes, mm.
-    pub fn heights(&self) -> Vec<f64> {
+    pub(crate) fn heights(&self) -> Vec<f64> {
         self.x.iter().map(|&x| self.profile.height(x)).collect()
     }
 

@@ -90,11 +90,6 @@ impl DepthMap {
         section(self.z_mm.len(), &self.depth_mm).collect()
     }
 
-    /// Area of a cell, mm^2.
-    pub fn cell_area_mm2(&self) -> f64 {
-        self.cell_mm().0 * self.cell_mm().1
-    }
-
     /// Length and width of a cell, mm.
     pub fn cell_mm(&self) -> (f64, f64) {
         (self.x_mm[1] - self.x_mm[0], self.z_mm[1] - self.z_mm[0])

@@ -128,7 +128,7 @@ impl Dimension {
     }
 
     /// Returns `true` if it consists of sections along a line, all of which slip as imposed.
-    pub fn has_sections(&self) -> bool {
+    pub(crate) fn has_sections(&self) -> bool {
         matches!(self, Self::Line(_) | Self::Extruded(_))
     }
 
@@ -148,7 +148,7 @@ impl LineShape {
     }
 
     /// Returns `true` if all sections move alike and touch at once.
-    pub fn is_even(self) -> bool {
+    pub(crate) fn is_even(self) -> bool {
         match self {
             Self::Ring { motion, .. } => motion == RingMotion::Torsion,
             Self::Straight {

@@ -59,7 +59,7 @@ impl Motion {
     }
 
     /// Returns `true` if it turns between its outermost turning points.
-    pub fn turns_inside(self) -> bool {
+    pub(crate) fn turns_inside(self) -> bool {
         matches!(self, Self::Periodic { .. })
     }
 

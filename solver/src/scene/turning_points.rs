@@ -64,18 +64,18 @@ impl TurningPoints {
     }
 
     /// Length of all strokes together, mm.
-    pub fn path_mm(&self) -> f64 {
+    pub(crate) fn path_mm(&self) -> f64 {
         self.strokes().map(|(from, to)| (to - from).abs()).sum()
     }
 
     /// Length of the shortest stroke, mm.
-    pub fn shortest_mm(&self) -> f64 {
+    pub(crate) fn shortest_mm(&self) -> f64 {
         let lengths = self.strokes().map(|(from, to)| (to - from).abs());
         lengths.fold(f64::INFINITY, f64::min)
     }
 
     /// Most strokes that pass one place.
-    pub fn most_passes(&self) -> usize {
+    pub(crate) fn most_passes(&self) -> usize {
         let passes = |x: f64| {
             let passing = |&(from, to): &(f64, f64)| from.min(to) <= x && x < from.max(to);
             self.strokes().filter(passing).count()

@@ -189,7 +189,7 @@ impl JumpControl {
     }
 
     /// Largest wear of a point of each surface per physical cycle in the last computed one, as equivalent depth, mm.
-    pub fn fastest_rate(&self) -> Sides<f64> {
+    pub(crate) fn fastest_rate(&self) -> Sides<f64> {
         self.rate.largest_of_each()
     }
 
@@ -199,7 +199,7 @@ impl JumpControl {
     }
 
     /// Estimated relative error of the worn depth so far.
-    pub fn mean_error(&self) -> f64 {
+    pub(crate) fn mean_error(&self) -> f64 {
         if self.worn > 0.0 {
             self.weighted_error / self.worn
         } else {

@@ -28,7 +28,7 @@ pub struct StationScene {
 
 /// Stations along half of a line that suffice for a tolerance: under a rigid top depths at 1 000 cycles of the thesis' ring are 15.81, 15.93
 /// and 15.97 um with 9, 17 and 33 of them.
-pub fn stations_for(tolerance: f64) -> usize {
+pub(crate) fn stations_for(tolerance: f64) -> usize {
     match tolerance {
         coarse if coarse > 0.03 => 9,
         medium if medium > 0.01 => 17,
@@ -133,7 +133,7 @@ impl StationScene {
     }
 
     /// Mean line load F/L, N/mm.
-    pub fn mean_line_load(&self) -> f64 {
+    pub(crate) fn mean_line_load(&self) -> f64 {
         self.force_n / self.line.length_mm()
     }
 

@@ -24,7 +24,7 @@ impl Cells {
     }
 
     /// Area of a cell, mm^2.
-    pub fn area_mm2(&self) -> f64 {
+    pub(crate) fn area_mm2(&self) -> f64 {
         self.dx_mm * self.dz_mm
     }
 

@@ -33,7 +33,7 @@ pub enum Parity {
 }
 
 /// A convolution with a kernel of one parity along both axes.
-pub struct Convolution {
+pub(crate) struct Convolution {
     /// Cells along x and z.
     cells: (usize, usize),
     /// The same with the padding.
@@ -63,7 +63,7 @@ struct Scratch {
 
 impl Convolution {
     /// The convolution of the infinite plane with a kernel of a parity, given by the offset in cells.
-    pub fn new(cells: &Cells, parity: Parity, kernel: impl Fn(usize, usize) -> f64) -> Self {
+    pub(crate) fn new(cells: &Cells, parity: Parity, kernel: impl Fn(usize, usize) -> f64) -> Self {
         let padded = (
             even_length(2 * cells.along_x),
             even_length(2 * cells.along_z),
@@ -99,7 +99,7 @@ impl Convolution {
     }
 
     /// A periodic filter by its response to the wave numbers along x and z, 1/mm.
-    pub fn periodic(cells: &Cells, response: impl Fn(f64, f64) -> f64) -> Self {
+    pub(crate) fn periodic(cells: &Cells, response: impl Fn(f64, f64) -> f64) -> Self {
         let length = (cells.along_x, cells.along_z);
         let mut convolution = Self::with_length(cells, length);
         convolution.set_response(cells, response);
@@ -107,7 +107,7 @@ impl Convolution {
     }
 
     /// Replaces the response of a periodic filter.
-    pub fn set_response(&mut self, cells: &Cells, response: impl Fn(f64, f64) -> f64) {
+    pub(crate) fn set_response(&mut self, cells: &Cells, response: impl Fn(f64, f64) -> f64) {
         let (nx, nz) = self.padded;
         let wave = |i: usize, n: usize, step: f64| {
             2.0 * std::f64::consts::PI * real(i.min(n - i)) / (real(n) * step)
@@ -147,7 +147,7 @@ impl Convolution {
     }
 
     /// Writes the convolution of a field into another one; both have a value for each cell.
-    pub fn apply(&mut self, field: &[f64], out: &mut [f64]) {
+    pub(crate) fn apply(&mut self, field: &[f64], out: &mut [f64]) {
         let ((_, nz), (length, _)) = (self.cells, self.padded);
         self.scratch.columns.fill(Complex::zero());
         for (i, values) in field.chunks_exact(nz).enumerate() {

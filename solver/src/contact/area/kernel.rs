@@ -43,7 +43,7 @@ fn between_corners((x, z): (f64, f64), (dx, dz): (f64, f64), f: impl Fn(f64, f64
 
 /// Normal displacement in mm at the offset x, z in mm from the centre of a cell of the length dx and the width dz in mm by a
 /// pressure of 1 MPa on it, for a contact modulus in MPa.
-pub fn normal_influence(offset: (f64, f64), size: (f64, f64), modulus: f64) -> f64 {
+pub(crate) fn normal_influence(offset: (f64, f64), size: (f64, f64), modulus: f64) -> f64 {
     between_corners(offset, size, antiderivative) / (PI * modulus)
 }
 

@@ -136,8 +136,9 @@ impl NormalContact {
     }
 
     /// The same without a preconditioner, to compare with.
+    #[cfg(test)]
     #[must_use]
-    pub fn without_preconditioner(self) -> Self {
+    pub(crate) fn without_preconditioner(self) -> Self {
         Self {
             preconditioner: None,
             ..self

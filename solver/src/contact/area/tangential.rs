@@ -55,7 +55,7 @@ pub struct Slip {
 }
 
 /// Solves increments of friction on a grid of cells.
-pub struct TangentialContact {
+pub(crate) struct TangentialContact {
     cells: Cells,
     along: Convolution,
     across: Convolution,
@@ -65,7 +65,7 @@ pub struct TangentialContact {
 
 impl TangentialContact {
     /// The contact of two half-spaces on a grid.
-    pub fn new(cells: Cells, compliance: ShearCompliance) -> Self {
+    pub(crate) fn new(cells: Cells, compliance: ShearCompliance) -> Self {
         let (dx, dz) = (cells.dx_mm, cells.dz_mm);
         let offset = |i: usize, j: usize| (dx * real(i), dz * real(j));
         let swapped = |i, j| {
@@ -86,7 +86,7 @@ impl TangentialContact {
     }
 
     /// Tangential displacement of the slider's surface over the receptacle's that a shear takes up, mm.
-    pub fn displacement(&mut self, shear: &Shear) -> Shear {
+    pub(crate) fn displacement(&mut self, shear: &Shear) -> Shear {
         let mut found = Shear::zero(shear.along.len());
         self.displace(shear, &mut found);
         found
@@ -110,7 +110,7 @@ impl TangentialContact {
     ///
     /// # Errors
     /// No convergence.
-    pub fn advance(
+    pub(crate) fn advance(
         &mut self,
         displacement_mm: (f64, f64),
         bound: &[f64],

@@ -118,7 +118,7 @@ impl Solver {
 
     /// |sum of vertical forces - load| over the load on the unworn contact, with the normals of other surfaces than the
     /// contact was solved with.
-    pub fn force_balance_on(
+    pub(crate) fn force_balance_on(
         &mut self,
         pair: &Pair<'_>,
         surfaces: &Surfaces<'_>,

@@ -101,7 +101,7 @@ impl ContactState {
     }
 
     /// First node in contact and one past the last.
-    pub fn active_range(&self) -> Option<(usize, usize)> {
+    pub(crate) fn active_range(&self) -> Option<(usize, usize)> {
         (!self.active.is_empty()).then_some((self.active.start, self.active.end))
     }
 
@@ -112,7 +112,7 @@ impl ContactState {
 
     /// Force of the slider on the receptacle along x, N/mm; with that of the shear which acts on neither body. Widths of the
     /// slave's nodes in mm.
-    pub fn tangential_force(&self, interface: &Interface, widths: &[f64]) -> f64 {
+    pub(crate) fn tangential_force(&self, interface: &Interface, widths: &[f64]) -> f64 {
         let loaded = self.loaded(Side::Receptacle);
         let forces = &self.force.receptacle[2 * loaded.start..2 * loaded.end];
         let acting = -forces.iter().step_by(2).sum::<f64>();

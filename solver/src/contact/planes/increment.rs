@@ -47,7 +47,7 @@ pub struct Solved {
 
 /// Solves increments; its buffers are reused from one to the next.
 #[derive(Default)]
-pub struct ExtrudedSolver {
+pub(crate) struct ExtrudedSolver {
     problem: Problem,
     wear: PlanesWear,
     response: Response,
@@ -63,7 +63,7 @@ impl ExtrudedSolver {
     ///
     /// # Errors
     /// [`ContactError`]; `next` and `worn` are then undefined.
-    pub fn advance(
+    pub(crate) fn advance(
         &mut self,
         bodies: &Extruded<'_>,
         surfaces: &[Surfaces<'_>],

@@ -103,13 +103,13 @@ impl Table {
     }
 
     /// The next point beyond a place.
-    pub fn next_point(&self, after: f64) -> Option<f64> {
+    pub(crate) fn next_point(&self, after: f64) -> Option<f64> {
         let mut points = self.points.iter().map(|point| point.at);
         points.find(|at| *at > after)
     }
 
     /// Distance from a place within which the coefficient changes by a part of its larger value, at the rate of change there.
-    pub fn distance_of_change(&self, from: f64, part: f64) -> f64 {
+    pub(crate) fn distance_of_change(&self, from: f64, part: f64) -> f64 {
         let next = self.points.partition_point(|point| point.at <= from);
         let (before, after) = self.around(next);
         let change = after.coefficient - before.coefficient;

@@ -13,7 +13,7 @@ const LORENZ: f64 = 2.44e-8;
 const ZERO_CELSIUS_K: f64 = 273.15;
 
 /// Temperature rise, K, of a voltage in V over surroundings in °C.
-pub fn rise_k(voltage_v: f64, surroundings_c: f64) -> f64 {
+pub(crate) fn rise_k(voltage_v: f64, surroundings_c: f64) -> f64 {
     let bodies = surroundings_c + ZERO_CELSIUS_K;
     let square = voltage_v * voltage_v / (4.0 * LORENZ);
     // Not as a difference of nearly equal temperatures.

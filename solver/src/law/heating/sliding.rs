@@ -33,7 +33,7 @@ pub struct Conductor {
 
 /// A sliding contact as a source of heat.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SlidingHeat {
+pub(crate) struct SlidingHeat {
     /// Half-width a, mm.
     pub half_width_mm: f64,
     /// Amplitude of the motion, mm.
@@ -52,7 +52,7 @@ pub struct SlidingHeat {
 
 impl SlidingHeat {
     /// Temperature rise at a speed, and the mean speed of the motion, in mm/s, for each N/mm of friction, K mm/N.
-    pub fn rise(&self, speed_mm_s: f64, mean_mm_s: f64) -> f64 {
+    pub(crate) fn rise(&self, speed_mm_s: f64, mean_mm_s: f64) -> f64 {
         let resting = self.near(self.resting) * speed_mm_s + self.far(self.resting) * mean_mm_s;
         let near = self.near(self.passed);
         let peclet = self

@@ -6,7 +6,7 @@
 //! v a < the diffusivity; an upper limit of faster ones.
 
 /// Temperature rise, K, for a heat in mW, a radius in mm and the sum of both conductivities in W/(m K).
-pub fn rise_k(heat_mw: f64, radius_mm: f64, conductivity_w_mk: f64) -> f64 {
+pub(crate) fn rise_k(heat_mw: f64, radius_mm: f64, conductivity_w_mk: f64) -> f64 {
     // mW/mm = W/m.
     heat_mw / (4.0 * radius_mm * conductivity_w_mk)
 }

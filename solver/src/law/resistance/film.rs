@@ -24,7 +24,7 @@ pub struct Growth {
 
 impl Film {
     /// Specific resistance at an age in s, ohm mm^2.
-    pub fn at_age(&self, age_s: f64) -> f64 {
+    pub(crate) fn at_age(&self, age_s: f64) -> f64 {
         let grown = self.growth.map_or(1.0, |growth| {
             (age_s.max(0.0) / growth.time_s).powf(growth.exponent)
         });

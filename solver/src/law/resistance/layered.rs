@@ -26,7 +26,7 @@ pub struct Conductor {
 
 /// Resistance, ohm, from a disc of a radius in mm to far away through conductors from the surface down, of which the last one is the
 /// base.
-pub fn half_space(radius_mm: f64, conductors: &[Conductor]) -> f64 {
+pub(crate) fn half_space(radius_mm: f64, conductors: &[Conductor]) -> f64 {
     let integrals = disc_flux::integrals();
     let outer = conductors
         .first()

@@ -53,7 +53,7 @@ fn hertz(force_n: f64, asperity: Asperity) -> f64 {
 }
 
 /// The sum over pairs of 1/s_ij, each pair in both orders, over n^2, for spots at these places: 1/mm for mm.
-pub fn pair_sum(places: &[[f64; 2]]) -> f64 {
+pub(crate) fn pair_sum(places: &[[f64; 2]]) -> f64 {
     let count = crate::number::real(places.len());
     let of = |i: usize| {
         let others = places.iter().enumerate().filter(move |(j, _)| *j != i);
@@ -65,7 +65,7 @@ pub fn pair_sum(places: &[[f64; 2]]) -> f64 {
 }
 
 /// Places of spots that fill a circle of a radius evenly: Fermat's spiral with the golden angle (Vogel 1979).
-pub fn in_circle(count: usize, radius: f64) -> Vec<[f64; 2]> {
+pub(crate) fn in_circle(count: usize, radius: f64) -> Vec<[f64; 2]> {
     let golden = PI * (3.0 - 5.0_f64.sqrt());
     let place = |i: usize| {
         let i = crate::number::real(i);

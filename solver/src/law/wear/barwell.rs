@@ -54,7 +54,7 @@ impl Barwell {
     }
 
     /// Largest specific wear rate from the surface down to a depth in mm, 1/MPa.
-    pub fn largest_rate(&self, depth: f64) -> f64 {
+    pub(crate) fn largest_rate(&self, depth: f64) -> f64 {
         match self.course {
             Course::Decelerating => self.rate_per_mpa,
             Course::Accelerating => self.rate(depth),
@@ -70,7 +70,7 @@ impl Barwell {
     }
 
     /// Depth by which a dose in MPa mm recedes a surface that is worn to a depth, mm, and the rate that it ends with, 1/MPa.
-    pub fn recession(&self, depth: f64, dose: f64) -> (f64, f64) {
+    pub(crate) fn recession(&self, depth: f64, dose: f64) -> (f64, f64) {
         let part = dose / self.dose_mpa_mm;
         let worn = match self.course {
             Course::Decelerating => {
@@ -93,7 +93,7 @@ impl Barwell {
 
     /// The law at another hardness than it was given with: the same course after a dose in proportion to the hardness.
     #[must_use]
-    pub fn softened(self, ratio: f64) -> Self {
+    pub(crate) fn softened(self, ratio: f64) -> Self {
         Self {
             rate_per_mpa: self.rate_per_mpa / ratio,
             dose_mpa_mm: self.dose_mpa_mm * ratio,

@@ -68,7 +68,7 @@ pub struct Exposure {
 
 impl Exposure {
     /// The increase of y under a pressure in MPa and over a slip in mm, with its derivatives by both.
-    pub fn increase(&self, pressure: f64, slip: f64) -> [f64; 3] {
+    pub(crate) fn increase(&self, pressure: f64, slip: f64) -> [f64; 3] {
         if pressure <= 0.0 {
             return [0.0; 3];
         }
@@ -107,7 +107,7 @@ impl PowerLaw {
     }
 
     /// Exposure of an increment of an imposed displacement in mm at a pace.
-    pub fn exposure(&self, pace: Pace, distance_mm: f64) -> Exposure {
+    pub(crate) fn exposure(&self, pace: Pace, distance_mm: f64) -> Exposure {
         let measure = match self.measure {
             Measure::SlipTime { .. } if pace.s_per_mm <= 0.0 => 0.0,
             Measure::SlipTime { speed_exponent } => pace.s_per_mm.powf(1.0 - speed_exponent),
@@ -132,7 +132,7 @@ impl PowerLaw {
     }
 
     /// Depth per y at a depth in mm; none where nothing has worn yet.
-    pub fn depth_per_equivalent(&self, depth: f64) -> f64 {
+    pub(crate) fn depth_per_equivalent(&self, depth: f64) -> f64 {
         if depth > 0.0 {
             self.exponent * depth.powf(1.0 - self.exponent.recip())
         } else {
@@ -141,7 +141,7 @@ impl PowerLaw {
     }
 
     /// Depth by which an increase of y recedes a surface that is worn to a depth, mm, and the depth per y that it ends with.
-    pub fn recession(&self, depth: f64, increase: f64) -> (f64, f64) {
+    pub(crate) fn recession(&self, depth: f64, increase: f64) -> (f64, f64) {
         if increase <= 0.0 {
             return (0.0, self.depth_per_equivalent(depth));
         }
@@ -163,7 +163,7 @@ impl PowerLaw {
     }
 
     /// y for each MPa mm of a state.
-    pub fn equivalent_rate(&self, at: LocalState) -> f64 {
+    pub(crate) fn equivalent_rate(&self, at: LocalState) -> f64 {
         self.increase(at)[0] / (at.pressure * at.slip)
     }
 }

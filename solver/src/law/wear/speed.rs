@@ -40,7 +40,7 @@ impl SpeedLaw {
     }
 
     /// Returns `true` if it is a law of time.
-    pub fn is_by_time(&self) -> bool {
+    pub(crate) fn is_by_time(&self) -> bool {
         match self {
             Self::Quinn(_) | Self::MildOxidation(_) => true,
             Self::SevereOxidation(_) | Self::Mechanism(_) => false,
