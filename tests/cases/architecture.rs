@@ -8,6 +8,7 @@ mod cycles;
 mod resolution;
 mod rules;
 mod sources;
+mod surface;
 mod tests;
 mod violations;
 
@@ -73,4 +74,11 @@ fn folders_and_files_depend_only_on_what_the_rules_allow() {
     found.extend(sources.iter().flat_map(cycles::between_folders));
     let found: Vec<String> = found.iter().map(ToString::to_string).collect();
     assert!(found.is_empty(), "\n\n{}\n", found.join("\n\n"));
+}
+
+#[test]
+fn what_the_engine_makes_public_is_used_by_another_crate() {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let unused = surface::unused(tests.parent().expect("the workspace"));
+    assert!(unused.is_empty(), "\n\n{}\n", unused.join("\n"));
 }
