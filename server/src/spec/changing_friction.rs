@@ -14,12 +14,13 @@ use crate::spec::plating;
 /// laws and layers.
 pub(super) fn with_layers(
     laws: Laws,
-    (platings, layers): (&Platings, &Sides<Vec<scene::Layer>>),
+    platings: &Platings,
+    layers: &Sides<Vec<scene::Layer>>,
     diagnostics: &mut Diagnostics,
 ) -> Laws {
     let friction = of_layers(laws.friction, platings, diagnostics);
     if let scene::Friction::ByDose(table) = &friction {
-        friction_table::check_doses(table, (laws.wear, layers), diagnostics);
+        friction_table::check_doses(table, &laws.wear, layers, diagnostics);
     }
     Laws { friction, ..laws }
 }

@@ -113,8 +113,8 @@ pub(super) fn resolve(
         return Vec::new();
     };
     check_fields(pointer, given, kind, diagnostics);
-    let of = (given.side.as_ref(), given.layer);
-    let sides = sides(pointer, of, (kind, surfaces), diagnostics);
+    let side = given.side.as_ref();
+    let sides = sides(pointer, side, given.layer, kind, surfaces, diagnostics);
     if kind == CriterionKind::Resistance {
         let limit = required(
             &format!("{pointer}/mohm"),
@@ -218,8 +218,10 @@ fn above(
 /// The sides of a criterion; adds a fault where there is none.
 fn sides(
     pointer: &str,
-    (given, layer): (Option<&EnumValue<Part>>, Option<u64>),
-    (kind, surfaces): (CriterionKind, Surfaces<'_>),
+    given: Option<&EnumValue<Part>>,
+    layer: Option<u64>,
+    kind: CriterionKind,
+    surfaces: Surfaces<'_>,
     diagnostics: &mut Diagnostics,
 ) -> Vec<Side> {
     let mut possible = surfaces.sides(kind);

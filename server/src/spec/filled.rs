@@ -34,8 +34,7 @@ pub(super) fn scene_of(spec: &Spec, kind: SystemKind) -> Option<Scene> {
 pub(super) fn resolve(numerics: &Numerics<'_>, diagnostics: &mut Diagnostics) -> Filled {
     let (spec, loading) = (&numerics.spec, numerics.loading);
     let bodies = loading.bodies;
-    let model = (bodies.dimension, loading.movement.scene);
-    model::check(spec, model, diagnostics);
+    model::check(spec, bodies.dimension, loading.movement.scene, diagnostics);
     changing_friction::check(spec, &bodies.laws.friction, diagnostics);
     let softening = environment::softening(spec, diagnostics);
     let conductors = conductors::resolve(numerics, diagnostics);
@@ -58,7 +57,7 @@ pub(super) fn resolve(numerics: &Numerics<'_>, diagnostics: &mut Diagnostics) ->
         conduction,
         ..section(numerics, softening)
     };
-    let (scene, chosen) = model::with_dimension(section, (bodies.dimension, spec), diagnostics);
+    let (scene, chosen) = model::with_dimension(section, bodies.dimension, spec, diagnostics);
     let (dimension, chosen) = chosen.unzip();
     let mut filled = Spec {
         life,

@@ -57,7 +57,8 @@ fn with_defaults(given: &Load, preset: &Load) -> Load {
 /// Resolves the load. `with_width` is whether the model has no width of its own, so that a force needs one.
 pub(crate) fn resolve(
     given: Option<&Load>,
-    (preset, with_width): (&Preset, bool),
+    preset: &Preset,
+    with_width: bool,
     shapes: &Shapes,
     diagnostics: &mut Diagnostics,
 ) -> (Load, LineLoad) {

@@ -38,7 +38,7 @@ pub(super) fn resolve(
     diagnostics.check_length("/mission", given.mission.len(), BLOCK_LIMIT);
     let blocks = given.mission.iter().take(BLOCK_LIMIT).enumerate();
     let blocks: Vec<_> = blocks
-        .map(|(index, given)| block((index, given), preset, contact, diagnostics))
+        .map(|(index, given)| block(index, given, preset, contact, diagnostics))
         .collect();
     check_drives(&blocks, diagnostics);
     let repeat = diagnostics.or_default("/repeat", given.repeat, assumed(1));
@@ -115,7 +115,8 @@ impl Block {
 }
 
 fn block(
-    (index, given): (usize, &MissionBlock),
+    index: usize,
+    given: &MissionBlock,
     preset: &Preset,
     contact: HeldContact,
     diagnostics: &mut Diagnostics,

@@ -45,7 +45,8 @@ impl Resolved {
 /// Resolves the dimension.
 pub(super) fn resolve(
     given: Option<&Model>,
-    (shapes, kind): (&Shapes, SystemKind),
+    shapes: &Shapes,
+    kind: SystemKind,
     diagnostics: &mut Diagnostics,
 ) -> (Model, Resolved) {
     let model = given.cloned().unwrap_or_default();
@@ -57,9 +58,9 @@ pub(super) fn resolve(
             (extruded::FIELDS, filled, Resolved::Extruded(extruded))
         }
         Dimension::Point => {
-            let given = ("/model/radius_z_mm", model.radius_z_mm);
+            let pointer = "/model/radius_z_mm";
             let default = assumed(shapes.slider.radius_mm);
-            let radius_across_mm = length(given, default, diagnostics);
+            let radius_across_mm = length(pointer, model.radius_z_mm, default, diagnostics);
             let filled = Model {
                 radius_z_mm: Some(radius_across_mm),
                 ..Model::default()
@@ -68,7 +69,7 @@ pub(super) fn resolve(
             (&["dimension", "radius_z_mm"], filled, resolved)
         }
         Dimension::Line | Dimension::Ring | Dimension::Auto => {
-            let (filled, line) = line::resolve((dimension, &model), (shapes, kind), diagnostics);
+            let (filled, line) = line::resolve(dimension, &model, shapes, kind, diagnostics);
             let resolved = if dimension == Dimension::Auto {
                 Resolved::Auto(line)
             } else {
@@ -87,11 +88,7 @@ pub(super) fn resolve(
 }
 
 /// Checks that a specification asks for nothing that its dimension does not have.
-pub(super) fn check(
-    filled: &Spec,
-    (model, motion): (Resolved, Motion),
-    diagnostics: &mut Diagnostics,
-) {
+pub(super) fn check(filled: &Spec, model: Resolved, motion: Motion, diagnostics: &mut Diagnostics) {
     if !matches!(model, Resolved::Line(_) | Resolved::Auto(_)) {
         line::check_overrides_of_others(filled, diagnostics);
     }
@@ -110,14 +107,15 @@ pub(super) fn check(
         diagnostics.foreign_field("/load", "width_mm", name);
     }
     if name != "auto" {
-        section_only::check(filled, (name, motion), diagnostics);
+        section_only::check(filled, name, motion, diagnostics);
     }
 }
 
 /// Makes a scene with its section one of its dimension, and checks its laws; with the dimension that was chosen and the reason.
 pub(super) fn with_dimension(
     scene: Scene,
-    (model, spec): (Resolved, &Spec),
+    model: Resolved,
+    spec: &Spec,
     diagnostics: &mut Diagnostics,
 ) -> (Scene, Option<(Dimension, String)>) {
     let load = spec.load.as_ref();
@@ -130,21 +128,20 @@ pub(super) fn with_dimension(
             match force_n {
                 None => scene,
                 Some(force_n) => {
-                    let across = (Some(radius_across_mm), force_n);
-                    point::with_dimension(scene, across, diagnostics)
+                    point::with_dimension(scene, Some(radius_across_mm), force_n, diagnostics)
                 }
             }
         }
         Resolved::Line(line) => {
             section_only::check_laws(&scene, "contact along a line", diagnostics);
-            line.with_dimension((scene, is_force), spec, diagnostics)
+            line.with_dimension(scene, is_force, spec, diagnostics)
         }
         Resolved::Extruded(extruded) => {
             section_only::check_laws(&scene, "contact of extruded bodies", diagnostics);
-            extruded::with_dimension(scene, (extruded, is_force), diagnostics)
+            extruded::with_dimension(scene, extruded, is_force, diagnostics)
         }
         Resolved::Auto(line) => {
-            let chosen = auto::choose((scene, line, is_force), spec, diagnostics);
+            let chosen = auto::choose(scene, line, is_force, spec, diagnostics);
             let reason = format!("model `{}`: {}", chosen.dimension.as_str(), chosen.reason);
             return (chosen.scene, Some((chosen.dimension, reason)));
         }

@@ -73,8 +73,8 @@ impl Bodies {
         law::check_plated_sides(&laws, plated, diagnostics);
         let friction = laws.friction.unworn();
         let (plating, layers) = plating::resolve(plating_choices, friction, diagnostics);
-        let laws = changing_friction::with_layers(laws, (&plating, &layers), diagnostics);
-        let (model, dimension) = model::resolve(given.model.as_ref(), (&shapes, kind), diagnostics);
+        let laws = changing_friction::with_layers(laws, &plating, &layers, diagnostics);
+        let (model, dimension) = model::resolve(given.model.as_ref(), &shapes, kind, diagnostics);
         Self {
             kind,
             preset,
@@ -101,9 +101,15 @@ impl<'a> Loading<'a> {
     /// Resolves load and motion.
     pub(super) fn resolve(bodies: &'a Bodies, given: &Spec, diagnostics: &mut Diagnostics) -> Self {
         // A force needs no width where the model has one.
-        let preset = (&bodies.preset, !bodies.dimension.has_width());
+        let with_width = !bodies.dimension.has_width();
         let load = given.load.as_ref();
-        let (load, line_load) = load::resolve(load, preset, &bodies.shapes, diagnostics);
+        let (load, line_load) = load::resolve(
+            load,
+            &bodies.preset,
+            with_width,
+            &bodies.shapes,
+            diagnostics,
+        );
         let contact = HeldContact {
             friction: bodies.laws.friction.unworn(),
             force_n: load.n,

@@ -30,10 +30,16 @@ pub fn inp(bodies: &ExtrudedScene, models: &[Model]) -> String {
         let bodies = models.iter().map(|model| model.bodies.of(side));
         bodies.map(|body| &body.zones[body.zone_at(0.0)]).collect()
     };
-    let slider = (&sections(Side::Slider)[..], lowered);
-    let slider = deck.prisms("SLIDER", slider, &planes, scene.slider.elastic);
-    let receptacle = (&sections(Side::Receptacle)[..], 0.0);
-    deck.prisms("RECEPTACLE", receptacle, &planes, scene.receptacle.elastic);
+    let slider = sections(Side::Slider);
+    let slider = deck.prisms("SLIDER", &slider, lowered, &planes, scene.slider.elastic);
+    let receptacle = sections(Side::Receptacle);
+    deck.prisms(
+        "RECEPTACLE",
+        &receptacle,
+        0.0,
+        &planes,
+        scene.receptacle.elastic,
+    );
     deck.contact(scene, &models[0], PENALTY);
     deck.boundary(&slider);
     deck.line("RECEPTACLE_FAR, 3, 3\nSLIDER_FAR, 3, 3");
@@ -55,7 +61,8 @@ impl Deck {
     fn prisms(
         &mut self,
         name: &str,
-        (sections, by): (&[&ZoneModel], f64),
+        sections: &[&ZoneModel],
+        by: f64,
         planes: &NodePlanes,
         elastic: Elastic,
     ) -> Part {

@@ -32,7 +32,7 @@ pub(super) fn by_cycle(given: &[FrictionAtCycle], diagnostics: &mut Diagnostics)
         .iter()
         .map(|point| (real(point.cycle), point.coefficient));
     let points: Vec<_> = points.collect();
-    table((BY_CYCLE, "cycle"), &points, diagnostics)
+    table(BY_CYCLE, "cycle", &points, diagnostics)
 }
 
 /// Resolves a table by dose.
@@ -45,12 +45,13 @@ pub(super) fn by_dose(given: &[FrictionAtDose], diagnostics: &mut Diagnostics) -
         .iter()
         .map(|point| (point.dose_mpa_mm, point.coefficient));
     let points: Vec<_> = points.collect();
-    table((BY_DOSE, "dose_mpa_mm"), &points, diagnostics)
+    table(BY_DOSE, "dose_mpa_mm", &points, diagnostics)
 }
 
 /// The table of points, place and coefficient; `None` for one that has faults in its order.
 fn table(
-    (pointer, field): (&str, &str),
+    pointer: &str,
+    field: &str,
     points: &[(f64, f64)],
     diagnostics: &mut Diagnostics,
 ) -> Option<Table> {
@@ -82,7 +83,8 @@ fn table(
 /// Checks that the doses of a table can be read from worn depths, beside the laws of the bases and the layers over them.
 pub(in crate::spec) fn check_doses(
     table: &Table,
-    (wear, plating): (Sides<Option<WearLaw>>, &Sides<Vec<Layer>>),
+    wear: &Sides<Option<WearLaw>>,
+    plating: &Sides<Vec<Layer>>,
     diagnostics: &mut Diagnostics,
 ) {
     let last = table.points().last().map_or(0.0, |point| point.at);

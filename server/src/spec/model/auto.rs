@@ -19,7 +19,9 @@ pub(super) struct Chosen {
 
 /// Chooses the dimension of a contact of a width, from its section under the load of the specification.
 pub(super) fn choose(
-    (section, line, is_force): (Scene, Line, bool),
+    section: Scene,
+    line: Line,
+    is_force: bool,
     spec: &Spec,
     diagnostics: &mut Diagnostics,
 ) -> Chosen {
@@ -28,7 +30,7 @@ pub(super) fn choose(
         crown_radius_mm,
         ..
     } = line.extent();
-    let plane = line.section((section.clone(), is_force));
+    let plane = line.section(section.clone(), is_force);
     if let Some(reason) = lacks(&plane, spec) {
         return Chosen {
             scene: plane,
@@ -43,7 +45,7 @@ pub(super) fn choose(
     };
     let as_point = crown_radius_mm.map(|crown| {
         let mut of_candidate = Diagnostics::default();
-        point::with_dimension(whole.clone(), (Some(crown), force_n), &mut of_candidate)
+        point::with_dimension(whole.clone(), Some(crown), force_n, &mut of_candidate)
     });
     let choice = extent::choose(&plane, as_point.as_ref(), line.extent());
     let reason = words::extent::reason(choice);
@@ -59,9 +61,9 @@ pub(super) fn choose(
         Choice::Crown { .. } => (Dimension::Point, reason),
     };
     let scene = match (dimension, crown_radius_mm) {
-        (Dimension::Line, _) => line.with_dimension((section, is_force), spec, diagnostics),
+        (Dimension::Line, _) => line.with_dimension(section, is_force, spec, diagnostics),
         (Dimension::Point, Some(crown)) => {
-            point::with_dimension(whole, (Some(crown), force_n), diagnostics)
+            point::with_dimension(whole, Some(crown), force_n, diagnostics)
         }
         _ => plane,
     };
@@ -75,7 +77,7 @@ pub(super) fn choose(
 /// Why the contact can be simulated in plane strain alone.
 fn lacks(plane: &Scene, spec: &Spec) -> Option<String> {
     let mut of_candidate = Diagnostics::default();
-    section_only::check(spec, ("line", plane.motion), &mut of_candidate);
+    section_only::check(spec, "line", plane.motion, &mut of_candidate);
     section_only::check_laws(plane, "contact of finite width", &mut of_candidate);
     let fault = of_candidate.into_faults().into_iter().next()?;
     Some(format!("{}: {}", fault.pointer, fault.detail))

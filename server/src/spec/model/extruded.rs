@@ -34,7 +34,7 @@ pub(super) fn resolve(
     const WIDTH: &str = "/model/width_mm";
     let is_known = kind == SystemKind::FuzzButton || given.width_mm.is_some();
     let width_mm = if is_known {
-        length((WIDTH, given.width_mm), source(FUZZ_BUTTON_MM), diagnostics)
+        length(WIDTH, given.width_mm, source(FUZZ_BUTTON_MM), diagnostics)
     } else {
         diagnostics.missing(WIDTH, "`extruded` needs it");
         FUZZ_BUTTON_MM
@@ -83,7 +83,8 @@ fn layers(given: Option<u32>, default: Sourced<u32>, diagnostics: &mut Diagnosti
 /// each mm of it.
 pub(super) fn with_dimension(
     mut scene: Scene,
-    (extruded, is_force): (Extruded, bool),
+    extruded: Extruded,
+    is_force: bool,
     diagnostics: &mut Diagnostics,
 ) -> Scene {
     let width = extruded.width_mm;

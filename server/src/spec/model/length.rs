@@ -7,7 +7,8 @@ use crate::spec::unit;
 
 /// Resolves a length, mm.
 pub(super) fn length(
-    (pointer, given): (&str, Option<f64>),
+    pointer: &str,
+    given: Option<f64>,
     default: Sourced<f64>,
     diagnostics: &mut Diagnostics,
 ) -> f64 {

@@ -56,8 +56,10 @@ pub(super) fn fields(dimension: Dimension) -> &'static [&'static str] {
 
 /// Resolves the line of a model.
 pub(super) fn resolve(
-    (dimension, given): (Dimension, &Model),
-    (shapes, kind): (&Shapes, SystemKind),
+    dimension: Dimension,
+    given: &Model,
+    shapes: &Shapes,
+    kind: SystemKind,
     diagnostics: &mut Diagnostics,
 ) -> (Model, Line) {
     let named = given.top.as_ref();
@@ -82,9 +84,9 @@ pub(super) fn resolve(
         }
     };
     let (filled, shape) = if dimension == Dimension::Ring {
-        ring(given, filled, (shapes, kind), diagnostics)
+        ring(given, filled, shapes, kind, diagnostics)
     } else {
-        straight((dimension, given), filled, diagnostics)
+        straight(dimension, given, filled, diagnostics)
     };
     (filled, Line { shape, top })
 }
@@ -92,7 +94,8 @@ pub(super) fn resolve(
 fn ring(
     given: &Model,
     filled: Model,
-    (shapes, kind): (&Shapes, SystemKind),
+    shapes: &Shapes,
+    kind: SystemKind,
     diagnostics: &mut Diagnostics,
 ) -> (Model, LineShape) {
     const POINTER: &str = "/model/outer_diameter_mm";
@@ -100,7 +103,7 @@ fn ring(
     let is_known = kind == SystemKind::FuzzButton || given.outer_diameter_mm.is_some();
     let diameter = if is_known {
         let default = assumed(FUZZ_BUTTON_MM);
-        length((POINTER, given.outer_diameter_mm), default, diagnostics)
+        length(POINTER, given.outer_diameter_mm, default, diagnostics)
     } else {
         diagnostics.missing(POINTER, "`ring` needs it");
         FUZZ_BUTTON_MM
@@ -128,7 +131,8 @@ fn ring(
 }
 
 fn straight(
-    (dimension, given): (Dimension, &Model),
+    dimension: Dimension,
+    given: &Model,
     filled: Model,
     diagnostics: &mut Diagnostics,
 ) -> (Model, LineShape) {
@@ -139,11 +143,7 @@ fn straight(
             &format!("`{}` needs it", dimension.as_str()),
         ),
         Some(_) => {
-            width_mm = length(
-                ("/model/width_mm", given.width_mm),
-                assumed(1.0),
-                diagnostics,
-            );
+            width_mm = length("/model/width_mm", given.width_mm, assumed(1.0), diagnostics);
         }
     }
     let crown = given.crown_radius_mm.map(|crown| {
@@ -202,7 +202,7 @@ impl Line {
     }
 
     /// A section under the load of a mm. A force, and its spring, are those of the whole line; other loads act on each mm of it.
-    pub(super) fn section(&self, (mut scene, is_force): (Scene, bool)) -> Scene {
+    pub(super) fn section(&self, mut scene: Scene, is_force: bool) -> Scene {
         let length = self.shape.length_mm();
         if is_force {
             scene.load_n_per_mm /= length;
@@ -225,11 +225,12 @@ impl Line {
     /// Makes a scene with its section one along the line.
     pub(super) fn with_dimension(
         &self,
-        loaded: (Scene, bool),
+        section: Scene,
+        is_force: bool,
         spec: &Spec,
         diagnostics: &mut Diagnostics,
     ) -> Scene {
-        let mut scene = self.section(loaded);
+        let mut scene = self.section(section, is_force);
         scene.dimension = scene::Dimension::Line(scene::Line {
             shape: self.shape,
             top: self.top,

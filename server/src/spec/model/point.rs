@@ -31,7 +31,8 @@ pub(super) fn check(filled: &Spec, diagnostics: &mut Diagnostics) {
 /// Makes a scene with its section that of a point contact under a force, N. The load of its section follows from the force.
 pub(super) fn with_dimension(
     mut scene: Scene,
-    (radius_across_mm, force_n): (Option<f64>, f64),
+    radius_across_mm: Option<f64>,
+    force_n: f64,
     diagnostics: &mut Diagnostics,
 ) -> Scene {
     scene.dimension = scene::Dimension::Point(Point {

@@ -10,7 +10,7 @@ use crate::spec::diagnostics::Diagnostics;
 const HAS_FIELDS: [&str; 3] = ["extruded", "line", "ring"];
 
 /// Checks that a specification has nothing that only a section has.
-pub(super) fn check(filled: &Spec, (name, motion): (&str, Motion), diagnostics: &mut Diagnostics) {
+pub(super) fn check(filled: &Spec, name: &str, motion: Motion, diagnostics: &mut Diagnostics) {
     if !filled.mission.is_empty() {
         diagnostics.fault("/mission", "missions are simulated in `plane_strain` alone");
     } else if !matches!(motion, Motion::Reciprocating { .. }) {
