@@ -52,7 +52,7 @@ type CondensedBody = ((BodyOperators, Option<Interior>), Option<Spreading>);
 
 /// The factored stiffness of a mesh: gives interior displacements back.
 #[derive(Debug)]
-pub struct Interior {
+pub(crate) struct Interior {
     numbering: Numbering,
     factor: CholeskyFactor,
     far_load: Vec<f64>,

@@ -5,6 +5,6 @@ pub mod line;
 pub mod planes;
 
 pub use line::{
-    ContactError, ContactState, Displacement, GAP_TOLERANCE, Increment, MOST_ITERATIONS, Pair,
-    Solver, Status, Surfaces, WarmStart, Work, slopes,
+    ContactError, ContactState, Displacement, Increment, Pair, Solver, Status, Surfaces, WarmStart,
+    Work, slopes,
 };

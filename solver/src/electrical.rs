@@ -35,7 +35,7 @@ pub use unworn::{Unworn, of as unworn};
 const MILLI: f64 = 1e3;
 
 /// Resistance of an open contact, mOhm: 1 TOhm, beyond what insulation between contacts is measured to.
-pub const OPEN_MOHM: f64 = 1e15;
+pub(crate) const OPEN_MOHM: f64 = 1e15;
 
 /// Resistance of the contact and its parts.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]

@@ -18,7 +18,7 @@ pub(crate) use wedge6::Wedge6;
 
 /// Above this Poisson's ratio the volumetric part is taken at its mean over the element (B-bar): from here on
 /// lambda > 9 mu, and a fully integrated quadrilateral begins to lock.
-pub const B_BAR_FROM_POISSON_RATIO: f64 = 0.45;
+pub(crate) const B_BAR_FROM_POISSON_RATIO: f64 = 0.45;
 
 /// An element with `N` nodes in `D` dimensions, plane strain in two.
 pub trait Element<const N: usize, const D: usize> {

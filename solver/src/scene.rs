@@ -20,12 +20,14 @@ mod timing;
 mod tuning;
 mod turning_points;
 
-pub use accuracy::{Accuracy, PRESSURE_TOLERANCES, Refinement};
+pub(crate) use accuracy::PRESSURE_TOLERANCES;
+pub use accuracy::{Accuracy, Refinement};
 pub use body::{BlockShape, Body, SliderShape, SurfaceEffects};
 pub use criterion::Criterion;
 pub use dimension::{Dimension, Ends, Extruded, Line, LineShape, Point, RingMotion, Top};
 pub use effect::Effect;
-pub use electrical::{Conduction, Electrical, MOST_METALS, Metal, Spots};
+pub(crate) use electrical::MOST_METALS;
+pub use electrical::{Conduction, Electrical, Metal, Spots};
 pub(crate) use heat::ContactHeat;
 pub use missing_input::{MissingInput, MissingProperty};
 pub use mission::{Block, Mission, Order};

@@ -14,11 +14,9 @@ mod preconditioner;
 mod tangential;
 
 pub use cells::Cells;
-pub use convolution::Parity;
 pub use error::AreaError;
-pub use kernel::ShearCompliance;
-pub use normal::{
-    MOST_ITERATIONS, NormalContact, NormalProblem, NormalSolution, RESIDUAL_TOLERANCE,
-};
+pub(crate) use kernel::ShearCompliance;
+pub use normal::{NormalContact, NormalProblem, NormalSolution};
+pub(crate) use tangential::SHEAR_TOLERANCE;
 pub(crate) use tangential::TangentialContact;
-pub use tangential::{MOST_TANGENTIAL_ITERATIONS, SHEAR_TOLERANCE, Shear, Slip, TangentialError};
+pub use tangential::{Shear, Slip, TangentialError};

@@ -50,7 +50,7 @@ pub use error::ContactError;
 pub use increment::Solver;
 pub use outcome::Increment;
 pub use pair::{Displacement, Pair, Surfaces, WarmStart, slopes};
-pub use problem::{GAP_TOLERANCE, MOST_ITERATIONS};
+pub(crate) use problem::GAP_TOLERANCE;
 pub use state::ContactState;
 pub use status::Status;
 pub use work::Work;

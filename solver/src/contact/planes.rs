@@ -27,6 +27,7 @@ mod problem;
 mod response;
 mod wear;
 
-pub use bodies::{Extruded, Slide};
+pub use bodies::Extruded;
+pub(crate) use bodies::Slide;
 pub(crate) use increment::ExtrudedSolver;
-pub use increment::{PlaneWear, Solved};
+pub(crate) use increment::{PlaneWear, Solved};

@@ -4,7 +4,7 @@ use super::tuning::Tuning;
 use crate::number::count_at_least;
 
 /// Tolerance of pressures, and of the resistance that follows from them, over that of depth, width and area.
-pub const PRESSURE_TOLERANCES: f64 = 3.0;
+pub(crate) const PRESSURE_TOLERANCES: f64 = 3.0;
 
 /// Mesh and integration settings.
 #[derive(Debug, Clone, Copy, PartialEq)]

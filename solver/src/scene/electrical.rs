@@ -6,7 +6,7 @@ use crate::scene::MissingProperty;
 use crate::sides::Sides;
 
 /// Most metals of a side: its layers and its base.
-pub const MOST_METALS: usize = MOST_LAYERS + 1;
+pub(crate) const MOST_METALS: usize = MOST_LAYERS + 1;
 
 /// Electrical properties of the contact in a scene, as far as they are known.
 #[derive(Debug, Clone, PartialEq)]

@@ -25,7 +25,7 @@ type Transform = Arc<dyn rustfft::Fft<f64>>;
 
 /// Symmetry of a kernel along both axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Parity {
+pub(crate) enum Parity {
     /// The same value on either side.
     Even,
     /// The opposite value on the other side.

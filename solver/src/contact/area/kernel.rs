@@ -49,14 +49,14 @@ pub(crate) fn normal_influence(offset: (f64, f64), size: (f64, f64), modulus: f6
 
 /// Compliance of both surfaces to shear: the sums over both bodies of (1 - nu)/G and nu/G, 1/MPa.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ShearCompliance {
+pub(crate) struct ShearCompliance {
     even: f64,
     along: f64,
 }
 
 impl ShearCompliance {
     /// Compliance of two bodies.
-    pub fn new(bodies: [Elastic; 2]) -> Self {
+    pub(crate) fn new(bodies: [Elastic; 2]) -> Self {
         let sum = |part: fn(f64) -> f64| {
             let terms = bodies.map(|body| part(body.poisson_ratio) / Lame::from(body).mu);
             terms[0] + terms[1]
@@ -68,14 +68,14 @@ impl ShearCompliance {
     }
 
     /// Displacement in mm along the shear at an offset in mm from a cell of a size in mm along and across the shear, by a shear of 1 MPa.
-    pub fn along(self, offset: (f64, f64), size: (f64, f64)) -> f64 {
+    pub(crate) fn along(self, offset: (f64, f64), size: (f64, f64)) -> f64 {
         let isotropic = between_corners(offset, size, antiderivative);
         let along = between_corners(offset, size, |s, t| term(t, s));
         (self.even * isotropic + self.along * along) / (2.0 * PI)
     }
 
     /// Displacement across the shear, which is odd along both axes.
-    pub fn across(self, offset: (f64, f64), size: (f64, f64)) -> f64 {
+    pub(crate) fn across(self, offset: (f64, f64), size: (f64, f64)) -> f64 {
         self.along * between_corners(offset, size, |s, t| -s.hypot(t)) / (2.0 * PI)
     }
 }

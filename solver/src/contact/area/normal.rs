@@ -34,11 +34,11 @@ use fields::{
 };
 
 /// Most iterations. Unworn contacts take 11 to 15, worn ones about 6.
-pub const MOST_ITERATIONS: usize = 1_000;
+pub(crate) const MOST_ITERATIONS: usize = 1_000;
 
 /// Largest residual: pressures of Hertz' sphere are then within 4e-6 of their peak with 32 to 128 cells along the window (1.3e-4 with
 /// 1e-6), far below the error of the grid, for two more iterations.
-pub const RESIDUAL_TOLERANCE: f64 = 1e-8;
+pub(crate) const RESIDUAL_TOLERANCE: f64 = 1e-8;
 
 /// A contact to be solved.
 #[derive(Debug, Clone, Copy)]

@@ -17,10 +17,10 @@ use super::kernel::ShearCompliance;
 use crate::number::real;
 
 /// Most iterations: Mindlin's sphere takes 119, 243 and 327 from no shear with 560, 2 252 and 5 048 cells in contact.
-pub const MOST_TANGENTIAL_ITERATIONS: usize = 5_000;
+pub(crate) const MOST_TANGENTIAL_ITERATIONS: usize = 5_000;
 
 /// Largest step of the shear over the largest bound at which the iteration ends.
-pub const SHEAR_TOLERANCE: f64 = 1e-7;
+pub(crate) const SHEAR_TOLERANCE: f64 = 1e-7;
 
 /// A vector field: its components along x and z at the cells.
 #[derive(Debug, Clone, PartialEq, Default)]

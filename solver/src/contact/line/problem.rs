@@ -8,11 +8,11 @@ use super::status::Status;
 use crate::law::wear::LocalState;
 
 /// Most Newton iterations of one increment before it is halved, or solved as a complementarity problem.
-pub const MOST_ITERATIONS: usize = 60;
+pub(crate) const MOST_ITERATIONS: usize = 60;
 
 /// Gap residual over the largest indentation at which the iteration has converged. The last Newton step squares an
 /// error of the order 1e-6, so this is reached by round-off or not at all.
-pub const GAP_TOLERANCE: f64 = 1e-11;
+pub(crate) const GAP_TOLERANCE: f64 = 1e-11;
 
 /// Data of one increment over the coupled nodes.
 pub(super) struct Problem<'a> {

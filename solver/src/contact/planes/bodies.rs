@@ -27,7 +27,7 @@ impl<'a> Extruded<'a> {
 
 /// Displacement of one increment.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Slide<'a> {
+pub(crate) struct Slide<'a> {
     /// Displacement of the slider at its end, mm.
     pub slider_x: f64,
     /// Number of equal slips that each slip represents in the wear.

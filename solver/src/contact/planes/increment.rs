@@ -17,7 +17,7 @@ const MOST_EXTENSIONS: usize = 60;
 
 /// Wear of an increment in one plane; arrays begin at the first coupled node of their side.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct PlaneWear {
+pub(crate) struct PlaneWear {
     /// First coupled node of each side.
     pub first: Sides<usize>,
     /// Vertical recession at the nodes from there on, mm.
@@ -34,7 +34,7 @@ pub struct PlaneWear {
 
 /// How an increment was solved.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Solved {
+pub(crate) struct Solved {
     /// Newton iterations.
     pub iterations: usize,
     /// Factorised equations: closed nodes of all planes and the height.
