@@ -62,7 +62,9 @@ async fn a_study_is_made_refused_mended_submitted_and_cloned() {
     );
     browser.click("button.primary").await;
     browser.shows(".status", "succeeded").await;
-    browser.shows("[aria-label=Result]", "25, ").await;
+    let done =
+        "/cycles done\\s+25\\b/.test(document.querySelector('[aria-label=Result]')?.innerText)";
+    browser.wait_for(done).await;
     let clone = browser.client.execute("[...document.querySelectorAll('.actions a')].find((link) => link.innerText.startsWith('Clone')).click()", Vec::new());
     clone.await.expect("it can be clicked");
     browser.shows("h1", "New study").await;
