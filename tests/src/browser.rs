@@ -14,7 +14,7 @@ use nix::unistd::Pid;
 use serde_json::{Value, json};
 
 /// Timeout of every wait; no measure of speed.
-const PATIENCE_MS: u64 = 120_000;
+const PATIENCE_MS: u64 = 300_000;
 const PATIENCE: Duration = Duration::from_millis(PATIENCE_MS);
 /// Time between two looks at a page that changes by itself.
 const POLL: Duration = Duration::from_millis(50);
