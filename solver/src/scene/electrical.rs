@@ -46,7 +46,7 @@ impl Conduction {
 pub struct Electrical {
     /// Depth of the section that carries the load, mm.
     pub width_mm: f64,
-    /// Metals of each side from the surface down, at most [`MOST_METALS`]; the last one is the base.
+    /// Metals of each side from the surface down, the layers and the base: at most [`MOST_LAYERS`] + 1.
     pub metals: Sides<Vec<Metal>>,
     /// Spots of real contact.
     pub spots: Spots,
