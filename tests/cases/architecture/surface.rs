@@ -10,19 +10,20 @@ use syn::{Field, Ident, ImplItemFn, Item, ItemMod, TypePath, Visibility};
 use super::sources::{attributes, is_test, line_of};
 
 /// Folders of Rust code that may use the engine, from the root of the workspace.
-const USERS: [&str; 4] = ["server/src", "solver/benches", "solver/examples", "tests"];
+pub(super) const USERS: [&str; 4] = ["server/src", "solver/benches", "solver/examples", "tests"];
 
-/// Public names of the engine, each with its place, that no user names. A type is also used by what is public of another one.
-pub(super) fn unused(workspace: &Path) -> Vec<String> {
+/// Public names of the crate in a folder, each with its place, that no file of its users has. Names are compared, whatever they stand for.
+/// A type is also used by the public signatures and fields of the crate.
+pub(super) fn unused(workspace: &Path, folder: &str, users: &[&str]) -> Vec<String> {
     let mut names = Names::default();
-    for file in files(&workspace.join("solver/src")) {
+    for file in files(&workspace.join(folder)) {
         let text = read(&file);
         names.file = file
             .strip_prefix(workspace)
             .map_or(file.clone(), Path::to_path_buf);
         names.visit_file(&syn::parse_file(&text).expect("Rust"));
     }
-    let used: BTreeSet<String> = USERS
+    let used: BTreeSet<String> = users
         .iter()
         .flat_map(|folder| files(&workspace.join(folder)))
         .flat_map(|file| words(&read(&file)))
@@ -35,7 +36,7 @@ pub(super) fn unused(workspace: &Path) -> Vec<String> {
         .collect()
 }
 
-/// What is public in a crate.
+/// Public names of a crate, and the types in their signatures.
 #[derive(Default)]
 struct Names {
     file: PathBuf,
@@ -72,6 +73,10 @@ impl<'ast> Visit<'ast> for Names {
                 self.signature(|names| names.visit_signature(&item.sig));
             }
             Item::Const(item) if is_public(&item.vis) => {
+                self.add(&item.ident);
+                self.signature(|names| names.visit_type(&item.ty));
+            }
+            Item::Static(item) if is_public(&item.vis) => {
                 self.add(&item.ident);
                 self.signature(|names| names.visit_type(&item.ty));
             }

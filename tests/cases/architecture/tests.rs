@@ -4,6 +4,7 @@ use std::fs;
 
 use super::cycles;
 use super::sources::{Sources, Target};
+use super::surface;
 use super::violations::is_spoken;
 
 const FILES: [(&str, &str); 5] = [
@@ -132,4 +133,28 @@ fn a_file_and_a_folder_that_need_each_other_are_reported() {
     let found = cycles::between_folders(&read());
     let circles: Vec<&str> = found.iter().map(|circle| circle.what.as_str()).collect();
     assert_eq!(circles, ["small/src/report", "small/src/shapes"]);
+}
+
+#[test]
+fn public_names_without_a_user_are_reported() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, text) in [
+        (
+            "engine/src/lib.rs",
+            "pub fn used() -> Held { Held }\npub struct Held;\npub fn unused() {}\npub(crate) fn hidden() {}\n\
+             impl Held { pub fn alone(&self) {} }\n#[cfg(test)]\nmod tests { pub fn fixture() {} }",
+        ),
+        ("user/main.rs", "fn main() { engine::used(); } // unused"),
+    ] {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+        fs::write(path, text).expect("written");
+    }
+    assert_eq!(
+        surface::unused(folder.path(), "engine/src", &["user"]),
+        [
+            "engine/src/lib.rs:3: `unused` is public, and no other crate uses it",
+            "engine/src/lib.rs:5: `alone` is public, and no other crate uses it"
+        ]
+    );
 }
