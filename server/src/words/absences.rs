@@ -44,18 +44,21 @@ pub(super) fn absence(effect: Effect, absence: Absence) -> String {
     words.to_owned()
 }
 
-/// What an effect has no part in where neither side wears.
+/// Consequence for an effect of neither side wearing.
 fn nothing_wears(effect: Effect) -> &'static str {
     match effect {
         Effect::Plating => "nothing wears, so no layer is worn through",
         Effect::Relocation => "nothing wears, so nothing moves the mesh",
         Effect::SpringFading => "nothing wears, so the spring keeps its load",
         Effect::AcrossWidth => "never simulated; nothing wears, so that no life depends on it",
-        _ => "nothing wears, so no hardness counts",
+        Effect::ThermalSoftening | Effect::FrictionalHeating | Effect::JouleHeating => {
+            "nothing wears, so no hardness counts"
+        }
+        _ => "nothing wears",
     }
 }
 
-/// What stands for an effect that is never simulated.
+/// Where to account for an effect that is never simulated.
 fn never_simulated(effect: Effect) -> &'static str {
     match effect {
         Effect::Oxidation => {

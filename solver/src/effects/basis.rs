@@ -43,6 +43,11 @@ impl Indicator {
     pub fn value(self) -> f64 {
         self.unworn.max(self.worn)
     }
+
+    /// Returns `true` if it is larger than that of any effect that is skipped.
+    pub(super) fn is_beyond_threshold(self) -> bool {
+        self.value() > self.threshold
+    }
 }
 
 /// Why there is nothing to simulate.
@@ -108,7 +113,7 @@ pub enum Facts {
         mean_k: f64,
         /// The largest one, K.
         highest_k: f64,
-        /// That of one spot that carries all of the load, K, where the force and the hardnesses are known.
+        /// Temperature rise of one spot that carries all of the load, K, where the force and the hardnesses are known.
         of_one_spot_k: Option<f64>,
     },
     /// Largest temperature rise of the unworn contact by the current, K.

@@ -69,9 +69,7 @@ fn verdict(scene: &Scene, effect: Effect, basis: Basis, is_required: bool) -> Ve
         Some(true) => Verdict::ForcedOn,
         Some(false) => Verdict::ForcedOff,
         None if !can_simulate(scene, effect) => Verdict::Skipped,
-        None if is_required || needed || indicator.value() > indicator.threshold => {
-            Verdict::Simulated
-        }
+        None if is_required || needed || indicator.is_beyond_threshold() => Verdict::Simulated,
         None => Verdict::Skipped,
     }
 }

@@ -25,8 +25,8 @@ impl Decision {
 
     /// Returns `true` if the effect is beyond its limit and not simulated.
     pub fn is_missed(&self) -> bool {
-        let is_beyond = |indicator: Indicator| indicator.value() > indicator.threshold;
-        !self.verdict.is_on() && self.indicator().is_some_and(is_beyond)
+        let indicator = self.indicator();
+        !self.verdict.is_on() && indicator.is_some_and(Indicator::is_beyond_threshold)
     }
 
     /// Returns `true` if a run may still require the effect: it is skipped, not switched off, and can be simulated in the scene.

@@ -49,7 +49,7 @@ pub(super) fn facts(
         }
         _ => Facts::Change {
             is_beyond_budget,
-            is_stated_error: indicator.value() > indicator.threshold
+            is_stated_error: indicator.is_beyond_threshold()
                 && effect.is_counted()
                 && !can_simulate(scene, effect),
         },
