@@ -20,9 +20,10 @@ mod increment;
 mod mission_state;
 mod motion_history;
 mod replay;
+pub(crate) mod retry;
 mod skew;
 mod state;
-pub(crate) mod step_control;
+mod step_control;
 mod stroke_wear;
 mod unskewed;
 mod warm_starts;
@@ -50,6 +51,7 @@ use replay::Replays;
 use skew::Passes;
 pub(crate) use skew::Skew;
 pub use state::{CycleError, CycleState};
+pub(crate) use warm_starts::IncrementNumber;
 pub use warm_starts::WarmStarts;
 
 /// The load at the neutral position, without sliding.
@@ -263,7 +265,10 @@ impl<'a> Integrator<'a> {
                 let points = self.reversal(state, step);
                 record.friction_loop.extend(&points);
             }
-            let start = warm_starts.of(increment, steps.len());
+            let start = warm_starts.of(IncrementNumber {
+                number: increment,
+                count: steps.len(),
+            });
             self.step(state, step, real_cycles(jump), increment, start)?;
             next_starts.push(&state.contact);
             let half_width = state.contact.half_width(&self.pair.slave().x);

@@ -1,26 +1,11 @@
-//! Step control: an increment that fails is halved and retried.
+//! Step control: increments of a cycle, of its replays, and within a turning point.
 
+use super::retry::{FailedIncrement, Increment, RETRY, RetryPolicy, halve_and_retry};
 use super::{CycleError, CycleState, Integrator};
 use crate::contact::{ContactError, Displacement, WarmStart};
-use crate::number::real;
 use crate::scene::Motion;
 use crate::schedule::increments;
 use crate::schedule::step::Step;
-
-/// Retries of an increment.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct RetryPolicy {
-    /// Most halvings before the increment fails.
-    pub(crate) halvings: u32,
-    /// From this many halvings on, Lemke's method is tried where Newton's method does not converge.
-    pub(crate) lemke_from: u32,
-}
-
-/// Of an increment that has to be solved.
-pub(crate) const RETRY: RetryPolicy = RetryPolicy {
-    halvings: 8,
-    lemke_from: 2,
-};
 
 /// A replay is optional, so the expensive method is not tried.
 const REPLAY_RETRY: RetryPolicy = RetryPolicy {
@@ -50,16 +35,18 @@ impl Integrator<'_> {
         start: Option<WarmStart<'_>>,
     ) -> Result<(), CycleError> {
         let cycle = state.cycle;
-        let to = Displacement {
+        let to = Increment {
+            surface_slip: step.surface_slip,
+            cycles,
             start,
-            ..displacement(step, cycles)
+            ..Increment::new(state.contact.slider_x, step.slider_x)
         };
-        self.halve_and_retry(state, to, 0, RETRY)
-            .map_err(|(halvings, source)| CycleError::Increment {
+        self.retried(state, to, RETRY)
+            .map_err(|failed| CycleError::Increment {
                 cycle,
                 increment,
-                halvings,
-                source,
+                halvings: failed.halvings,
+                source: failed.source,
             })
     }
 
@@ -70,17 +57,8 @@ impl Integrator<'_> {
         slider_x: f64,
         parts: usize,
     ) -> bool {
-        let from = state.contact.slider_x;
-        let part = |k: usize| Step {
-            slider_x: from + (slider_x - from) * real(k) / real(parts),
-            surface_slip: 0.0,
-            at: None,
-            stroke: 0,
-        };
-        (1..=parts).all(|k| {
-            self.halve_and_retry(state, displacement(&part(k), 1.0), 0, REPLAY_RETRY)
-                .is_ok()
-        })
+        Increment::parts(state.contact.slider_x, slider_x, parts)
+            .all(|part| self.retried(state, part, REPLAY_RETRY).is_ok())
     }
 
     /// Displacements and forces within the first step after a turning point, in which the force reverses: on a copy of
@@ -102,53 +80,25 @@ impl Integrator<'_> {
         points
     }
 
-    /// Solves an increment, from the last contact if it fails from another start, and in halves if it fails as a whole.
-    fn halve_and_retry(
+    /// Solves an increment, from a start or from the last contact, and in halves if it fails as a whole.
+    fn retried(
         &mut self,
         state: &mut CycleState,
-        to: Displacement<'_>,
-        halvings: u32,
+        to: Increment<WarmStart<'_>>,
         policy: RetryPolicy,
-    ) -> Result<(), (u32, ContactError)> {
-        let to = Displacement {
-            lemke: halvings >= policy.lemke_from,
-            ..to
-        };
-        let Err(error) = self.increment(state, to) else {
-            return Ok(());
-        };
-        if to.start.is_some() {
-            let cold = Displacement { start: None, ..to };
-            return self.halve_and_retry(state, cold, halvings, policy);
-        }
-        if halvings == policy.halvings || error.needs_wider_zones() {
-            return Err((halvings, error));
-        }
-        let slider_x = 0.5 * (state.contact.slider_x + to.slider_x);
-        let surface_slip = 0.5 * to.surface_slip;
-        let first = Displacement {
-            slider_x,
-            surface_slip,
-            ..to
-        };
-        self.halve_and_retry(state, first, halvings + 1, policy)?;
-        let second = Displacement {
-            slider_x: to.slider_x,
-            ..first
-        };
-        self.halve_and_retry(state, second, halvings + 1, policy)
-    }
-}
-
-fn displacement(step: &Step, cycles: f64) -> Displacement<'static> {
-    Displacement {
-        slider_x: step.slider_x,
-        surface_slip: step.surface_slip,
-        along: 0.0,
-        height: None,
-        repeated: false,
-        cycles,
-        lemke: false,
-        start: None,
+    ) -> Result<(), FailedIncrement<ContactError>> {
+        halve_and_retry(to, policy, |increment| {
+            let displacement = Displacement {
+                slider_x: increment.to,
+                surface_slip: increment.surface_slip,
+                along: 0.0,
+                height: None,
+                repeated: false,
+                cycles: increment.cycles,
+                lemke: increment.lemke,
+                start: increment.start,
+            };
+            self.increment(state, displacement)
+        })
     }
 }

@@ -13,6 +13,15 @@ pub struct WarmStarts {
     pressure: Vec<f64>,
 }
 
+/// An increment of a cycle, which may start from the one like it of the last cycle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct IncrementNumber {
+    /// Number in the cycle, from 0 on.
+    pub(crate) number: usize,
+    /// Increments of the cycle.
+    pub(crate) count: usize,
+}
+
 impl WarmStarts {
     /// Appends the contact at the end of the next increment.
     pub(crate) fn push(&mut self, contact: &ContactState) {
@@ -24,12 +33,13 @@ impl WarmStarts {
     }
 
     /// Start of an increment of the next cycle, if that has as many.
-    pub(crate) fn of(&self, increment: usize, increments: usize) -> Option<WarmStart<'_>> {
-        if increments != self.increments.len() {
+    pub(crate) fn of(&self, increment: IncrementNumber) -> Option<WarmStart<'_>> {
+        let IncrementNumber { number, count } = increment;
+        if count != self.increments.len() {
             return None;
         }
-        let (first, end) = self.increments[increment];
-        let begin = increment
+        let (first, end) = self.increments[number];
+        let begin = number
             .checked_sub(1)
             .map_or(0, |before| self.increments[before].1);
         Some(WarmStart {
@@ -68,12 +78,13 @@ mod tests {
         contact.set_statuses(1, &[Status::Stick; 2]);
         contact.pressure[1..3].copy_from_slice(&[5.0, 7.0]);
         starts.push(&contact);
-        let start = starts.of(0, 2).expect("as many increments");
+        let of = |number, count| starts.of(IncrementNumber { number, count });
+        let start = of(0, 2).expect("as many increments");
         assert!(start.status.is_empty());
-        let start = starts.of(1, 2).expect("as many increments");
+        let start = of(1, 2).expect("as many increments");
         assert_eq!(start.first, 1);
         assert_eq!(start.status, [Status::Stick; 2]);
         assert_eq!(start.pressure, [5.0, 7.0]);
-        assert_eq!(starts.of(1, 3), None);
+        assert_eq!(of(1, 3), None);
     }
 }

@@ -6,8 +6,8 @@ use crate::ale::Spines;
 use crate::along_line::{LineRecord, PositionContacts};
 use crate::contact::planes::{Extruded, ExtrudedSolver, PlaneWear, Slide, Solved};
 use crate::contact::{self, ContactError, ContactState, Pair, Solver, Surfaces, WarmStart, Work};
-use crate::cycle::step_control::RETRY;
-use crate::cycle::{Neutral, WarmStarts, wear_limit};
+use crate::cycle::retry::{self, FailedIncrement, RETRY, halve_and_retry};
+use crate::cycle::{IncrementNumber, Neutral, WarmStarts, wear_limit};
 use crate::model::Interface;
 use crate::number::{count, real};
 use crate::schedule::replay::ReplayPlan;
@@ -28,14 +28,7 @@ pub(super) struct Contact {
     worn: Vec<PlaneWear>,
 }
 
-/// An increment from the last place of the slider.
-#[derive(Debug, Clone, Copy)]
-struct Increment {
-    to: f64,
-    cycles: f64,
-    /// Number of the increment in its cycle and their number, if the last cycle has one like it to start from.
-    like: Option<(usize, usize)>,
-}
+type Increment = retry::Increment<IncrementNumber>;
 
 impl Contact {
     /// Unloaded, unworn bodies.
@@ -75,12 +68,7 @@ impl Contact {
     /// [`ContactError`] if there is no equilibrium.
     pub(super) fn apply_load(&mut self, bodies: &Bodies) -> Result<(), ContactError> {
         self.update_slopes(bodies);
-        let first = Increment {
-            to: 0.0,
-            cycles: 0.0,
-            like: None,
-        };
-        self.advance(bodies, first)?;
+        self.advance(bodies, Increment::new(0.0, 0.0))?;
         for contact in &mut self.planes.contacts {
             contact.reference_height = Some(contact.height);
         }
@@ -91,14 +79,14 @@ impl Contact {
     /// Takes steps, each of which stands for so many cycles, with replays of single ones.
     ///
     /// # Errors
-    /// The number of halvings and the last error.
+    /// [`FailedIncrement`].
     pub(super) fn slide(
         &mut self,
         bodies: &Bodies,
         steps: &[Step],
         cycles: f64,
         replays: &ReplayPlan,
-    ) -> Result<LineRecord, (u32, ContactError)> {
+    ) -> Result<LineRecord, FailedIncrement<ContactError>> {
         self.update_slopes(bodies);
         let mut starts = vec![WarmStarts::default(); self.planes.states.len()];
         let (mut half_widths, mut touching) = (0.0, 0);
@@ -107,12 +95,16 @@ impl Contact {
             for &(_, end) in replays.spans.iter().filter(|span| span.0 == number) {
                 replayed.extend(self.replay(bodies, &steps[number..=end], replays));
             }
-            let increment = Increment {
-                to: step.slider_x,
-                cycles,
-                like: (cycles > 0.0).then_some((number, steps.len())),
+            let start = IncrementNumber {
+                number,
+                count: steps.len(),
             };
-            self.halve_and_retry(bodies, increment, 0)?;
+            let increment = Increment {
+                cycles,
+                start: (cycles > 0.0).then_some(start),
+                ..Increment::new(self.slider_x(), step.slider_x)
+            };
+            self.retried(bodies, increment)?;
             for (starts, contact) in starts.iter_mut().zip(&self.planes.contacts) {
                 starts.push(contact);
             }
@@ -169,15 +161,7 @@ impl Contact {
 
     /// Slides to a place in equal parts with the wear of a single cycle; returns whether all have a solution.
     fn replay_to(&mut self, bodies: &Bodies, to: f64, parts: usize) -> bool {
-        let from = self.slider_x();
-        (1..=parts).all(|part| {
-            let increment = Increment {
-                to: from + (to - from) * real(part) / real(parts),
-                cycles: 1.0,
-                like: None,
-            };
-            self.halve_and_retry(bodies, increment, 0).is_ok()
-        })
+        Increment::parts(self.slider_x(), to, parts).all(|part| self.retried(bodies, part).is_ok())
     }
 
     /// The contacts of the present increment.
@@ -251,33 +235,21 @@ impl Contact {
     }
 
     /// Takes an increment, from the last contact if it fails from another start, and in halves if it fails as a whole.
-    fn halve_and_retry(
+    fn retried(
         &mut self,
         bodies: &Bodies,
         increment: Increment,
-        halvings: u32,
-    ) -> Result<(), (u32, ContactError)> {
-        let Err(error) = self.advance(bodies, increment) else {
-            return Ok(());
-        };
-        let cold = Increment {
-            like: None,
-            ..increment
-        };
-        if increment.like.is_some() {
-            return self.halve_and_retry(bodies, cold, halvings);
-        }
-        if halvings == RETRY.halvings || error.needs_wider_zones() {
-            return Err((halvings, error));
-        }
-        let to = 0.5 * (self.slider_x() + increment.to);
-        self.halve_and_retry(bodies, Increment { to, ..cold }, halvings + 1)?;
-        self.halve_and_retry(bodies, cold, halvings + 1)
+    ) -> Result<(), FailedIncrement<ContactError>> {
+        halve_and_retry(increment, RETRY, |increment| {
+            self.advance(bodies, increment)
+        })
     }
 
     /// Solves an increment and makes it part of the state.
     fn advance(&mut self, bodies: &Bodies, increment: Increment) -> Result<(), ContactError> {
-        let Increment { to, cycles, like } = increment;
+        let Increment {
+            to, cycles, start, ..
+        } = increment;
         let pairs = self.planes.states.iter().zip(&self.slopes);
         let surfaces: Vec<Surfaces<'_>> = pairs
             .map(|(state, slope)| Surfaces {
@@ -286,11 +258,9 @@ impl Contact {
                 friction: Sides::default(),
             })
             .collect();
-        let starts: Option<Vec<WarmStart<'_>>> = like.and_then(|(number, count)| {
+        let starts: Option<Vec<WarmStart<'_>>> = start.and_then(|number| {
             let states = self.planes.states.iter();
-            states
-                .map(|state| state.warm_starts.of(number, count))
-                .collect()
+            states.map(|state| state.warm_starts.of(number)).collect()
         });
         let extruded = Extruded {
             operators: &bodies.operators,

@@ -10,6 +10,7 @@ use super::scene::ExtrudedScene;
 use super::state::{CommonPlaneState, ExtrudedState};
 use crate::along_line::LineRecord;
 use crate::contact::ContactError;
+use crate::cycle::retry::FailedIncrement;
 use crate::effects::EffectsPlan;
 use crate::model;
 use crate::number::real_cycles;
@@ -42,7 +43,10 @@ impl ExtrudedIntegrator {
     ) -> Result<(Self, ExtrudedState), ExtrudedError> {
         let mut run = Self::unloaded(scene, plan)?;
         while let Err(source) = run.contact.apply_load(&run.bodies) {
-            run.widen_or(0, source)?;
+            run.widen_or(FailedIncrement {
+                halvings: 0,
+                source,
+            })?;
         }
         run.common.unworn_half_width = run.contact.planes.mean_half_width;
         let positions = vec![run.contact.contacts_at(&run.bodies, Position::Neutral)];
@@ -100,11 +104,11 @@ impl ExtrudedIntegrator {
             let slid = self
                 .contact
                 .slide(&self.bodies, quarter, 0.0, &ReplayPlan::default());
-            let Err((halvings, error)) = slid else {
+            let Err(failed) = slid else {
                 return Ok(());
             };
             self.contact.planes = before;
-            self.widen_or(halvings, error)?;
+            self.widen_or(failed)?;
         }
     }
 
@@ -150,13 +154,12 @@ impl ExtrudedIntegrator {
                 Err(failed) => failed,
             };
             self.contact.planes.clone_from(&before);
-            let (halvings, error) = failed;
-            if error.needs_wider_zones() {
-                self.widen_or(halvings, error)?;
+            if failed.source.needs_wider_zones() {
+                self.widen_or(failed)?;
                 continue;
             }
             let shorter = self.common.jump.cut(jump);
-            jump = shorter.ok_or_else(|| self.failure(halvings, error))?;
+            jump = shorter.ok_or_else(|| self.failure(failed))?;
         }
         self.common.done += jump;
         self.common.computed += 1;
@@ -207,9 +210,9 @@ impl ExtrudedIntegrator {
     ///
     /// # Errors
     /// The error, if wider zones are no help.
-    fn widen_or(&mut self, halvings: u32, error: ContactError) -> Result<(), ExtrudedError> {
-        if !error.needs_wider_zones() {
-            return Err(self.failure(halvings, error));
+    fn widen_or(&mut self, failed: FailedIncrement<ContactError>) -> Result<(), ExtrudedError> {
+        if !failed.source.needs_wider_zones() {
+            return Err(self.failure(failed));
         }
         self.common.widenings += 1;
         self.common.relocations += 1;
@@ -221,7 +224,8 @@ impl ExtrudedIntegrator {
         (effort.increments, effort.iterations)
     }
 
-    fn failure(&self, halvings: u32, source: ContactError) -> ExtrudedError {
+    fn failure(&self, failed: FailedIncrement<ContactError>) -> ExtrudedError {
+        let FailedIncrement { halvings, source } = failed;
         ExtrudedError::Contact {
             cycle: self.common.done,
             halvings,

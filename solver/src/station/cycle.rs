@@ -5,11 +5,17 @@ use super::section::{Increment, Station};
 use super::state::{CommonLineState, StationState};
 use super::top::{Carrier, Unsolved};
 use crate::along_line::{LineRecord, PositionContacts};
-use crate::cycle::WarmStarts;
-use crate::cycle::step_control::RETRY;
+use crate::cycle::retry::{FailedIncrement, IncrementError, RETRY, RetryPolicy, halve_and_retry};
+use crate::cycle::{IncrementNumber, WarmStarts};
 use crate::number::real;
 use crate::schedule::replay::ReplayPlan;
 use crate::schedule::step::{Position, Step};
+
+/// Sections repeat a solve from the last contact themselves.
+const SECTIONS_RETRY: RetryPolicy = RetryPolicy {
+    from_last_contact: false,
+    ..RETRY
+};
 
 /// The stations on their carrier, with the slider at a place.
 pub(super) struct Line {
@@ -30,13 +36,13 @@ impl Line {
     /// Takes the steps of a cycle, each of which stands for so many cycles, with replays of single ones.
     ///
     /// # Errors
-    /// The number of halvings and [`Unsolved`].
+    /// [`FailedIncrement`].
     pub(super) fn slide(
         &mut self,
         steps: &[Step],
         cycles: f64,
         replays: &ReplayPlan,
-    ) -> Result<LineRecord, (u32, Unsolved)> {
+    ) -> Result<LineRecord, FailedIncrement<Unsolved>> {
         let count = self.stations.len();
         let mut starts = vec![WarmStarts::default(); count];
         let (mut half_widths, mut touching) = (vec![0.0; count], vec![0; count]);
@@ -48,14 +54,15 @@ impl Line {
             for &(_, end) in replays.spans.iter().filter(|span| span.0 == number) {
                 replayed.extend(self.replay(&steps[number..=end], replays));
             }
-            let increment = Increment {
-                from: self.common.slider_x,
-                to: step.slider_x,
-                cycles,
-                lemke: false,
-                like: (cycles > 0.0).then_some((number, steps.len())),
+            let start = IncrementNumber {
+                number,
+                count: steps.len(),
             };
-            self.halve_and_retry(increment, 0)?;
+            self.retried(Increment {
+                cycles,
+                start: (cycles > 0.0).then_some(start),
+                ..Increment::new(self.common.slider_x, step.slider_x)
+            })?;
             for (j, station) in self.stations.iter().enumerate() {
                 starts[j].push(&station.state.contact);
                 let half_width = station.half_width();
@@ -103,57 +110,21 @@ impl Line {
 
     /// Slides to a place in equal parts with the wear of a single cycle; returns whether all have a solution.
     fn replay_to(&mut self, to: f64, parts: usize) -> bool {
-        let from = self.common.slider_x;
-        (1..=parts).all(|part| {
-            let increment = Increment {
-                from: self.common.slider_x,
-                to: from + (to - from) * real(part) / real(parts),
-                cycles: 1.0,
-                lemke: false,
-                like: None,
-            };
-            self.halve_and_retry(increment, 0).is_ok()
-        })
+        Increment::parts(self.common.slider_x, to, parts).all(|part| self.retried(part).is_ok())
     }
 
     /// Takes an increment, in halves if it fails as a whole.
-    fn halve_and_retry(
-        &mut self,
-        increment: Increment,
-        halvings: u32,
-    ) -> Result<(), (u32, Unsolved)> {
-        let increment = Increment {
-            lemke: increment.lemke || halvings >= RETRY.lemke_from,
-            ..increment
-        };
-        let common = &mut self.common;
-        let solved = self
-            .carrier
-            .advance(&mut self.stations, &mut common.height, increment);
-        let error = match solved {
-            Ok(iterations) => {
-                common.slider_x = increment.to;
-                common.increments += 1;
-                common.iterations += iterations;
-                return Ok(());
-            }
-            Err(error) => error,
-        };
-        if halvings == RETRY.halvings || error.station_to_widen().is_some() {
-            return Err((halvings, error));
-        }
-        let middle = 0.5 * (increment.from + increment.to);
-        let halves = [(increment.from, middle), (middle, increment.to)];
-        for (from, to) in halves {
-            let half = Increment {
-                from,
-                to,
-                like: None,
-                ..increment
-            };
-            self.halve_and_retry(half, halvings + 1)?;
-        }
-        Ok(())
+    fn retried(&mut self, increment: Increment) -> Result<(), FailedIncrement<Unsolved>> {
+        halve_and_retry(increment, SECTIONS_RETRY, |increment| {
+            let common = &mut self.common;
+            let iterations =
+                self.carrier
+                    .advance(&mut self.stations, &mut common.height, increment)?;
+            common.slider_x = increment.to;
+            common.increments += 1;
+            common.iterations += iterations;
+            Ok(())
+        })
     }
 
     /// The contacts of the present increment.
@@ -212,6 +183,12 @@ impl Line {
         }
         self.common.height = before.height.clone();
         self.common.slider_x = before.slider_x;
+    }
+}
+
+impl IncrementError for Unsolved {
+    fn needs_wider_zones(&self) -> bool {
+        self.station_to_widen().is_some()
     }
 }
 

@@ -18,6 +18,7 @@ use super::state::{CommonLineState, LineState, StationState};
 use super::top::{Carrier, Unsolved};
 use crate::along_line::LineRecord;
 use crate::contact::ContactState;
+use crate::cycle::retry::FailedIncrement;
 use crate::effects::EffectsPlan;
 use crate::model;
 use crate::number::real_cycles;
@@ -27,15 +28,6 @@ use crate::schedule::plan::Cycles;
 use crate::schedule::replay::ReplayPlan;
 use crate::schedule::step::Position;
 use crate::threads::Threads;
-
-/// The load at the neutral position, without sliding.
-const FIRST_LOAD: Increment = Increment {
-    from: 0.0,
-    to: 0.0,
-    cycles: 0.0,
-    lemke: true,
-    like: None,
-};
 
 /// Computes the cycles of a contact along a line.
 pub(crate) struct LineIntegrator {
@@ -156,11 +148,16 @@ impl LineIntegrator {
 
     /// Applies the load without sliding: friction holds the sections together, which locks in shear between unlike bodies. The height under the mean line load is the first one of a rigid top.
     fn apply_load_once(&mut self) -> Result<(), StationError> {
+        // At the neutral position.
+        let first_load = Increment {
+            lemke: true,
+            ..Increment::new(0.0, 0.0)
+        };
         let line = &mut self.line;
         if self.scene.top != Top::Even {
             let first = &mut line.stations[0];
             first
-                .solve(FIRST_LOAD, None, None)
+                .solve(first_load, None, None)
                 .map_err(|source| StationError::Contact {
                     cycle: 0,
                     station: 0,
@@ -170,8 +167,13 @@ impl LineIntegrator {
             line.common.height = Height::at(first.attempted_height());
         }
         line.carrier
-            .advance(&mut line.stations, &mut line.common.height, FIRST_LOAD)
-            .map_err(|error| self.failure(0, error))?;
+            .advance(&mut line.stations, &mut line.common.height, first_load)
+            .map_err(|source| {
+                self.failure(FailedIncrement {
+                    halvings: 0,
+                    source,
+                })
+            })?;
         self.line.common.height.loaded();
         for station in &mut self.line.stations {
             station.loaded();
@@ -190,11 +192,11 @@ impl LineIntegrator {
         loop {
             let before = self.line.snapshot();
             let slid = self.line.slide(quarter, 0.0, &ReplayPlan::default());
-            let Err((halvings, error)) = slid else {
+            let Err(failed) = slid else {
                 return Ok(());
             };
             self.line.restore(&before);
-            self.widen_or(self.failure(halvings, error))?;
+            self.widen_or(self.failure(failed))?;
         }
     }
 
@@ -242,7 +244,7 @@ impl LineIntegrator {
             let plan = self.cycle_plan(Cycles { done, jump });
             let steps = increments::steps(self.plane.motion, plan.steps);
             let slid = self.line.slide(&steps, real_cycles(jump), &plan.replays);
-            let (halvings, error) = match slid {
+            let failed = match slid {
                 Ok(record) => {
                     self.measure_jump(&before.stations, jump);
                     let Some(shorter) = self.rejected(jump) else {
@@ -263,7 +265,7 @@ impl LineIntegrator {
                 Err(failed) => failed,
             };
             self.line.restore(&before);
-            if let Some(station) = error.station_to_widen() {
+            if let Some(station) = failed.source.station_to_widen() {
                 self.line.stations[station].widen();
                 self.follow_states()?;
                 before = self.line.snapshot();
@@ -273,7 +275,7 @@ impl LineIntegrator {
             for station in &mut self.line.stations {
                 shorter = station.state.jump.cut(jump);
             }
-            jump = shorter.ok_or_else(|| self.failure(halvings, error))?;
+            jump = shorter.ok_or_else(|| self.failure(failed))?;
         }
     }
 
@@ -325,9 +327,10 @@ impl LineIntegrator {
         .map_err(|(_, error)| error)
     }
 
-    fn failure(&self, halvings: u32, error: Unsolved) -> StationError {
+    fn failure(&self, failed: FailedIncrement<Unsolved>) -> StationError {
+        let FailedIncrement { halvings, source } = failed;
         let cycle = self.line.common.done;
-        match error {
+        match source {
             Unsolved::Section { station, source } => StationError::Contact {
                 cycle,
                 station,

@@ -12,7 +12,7 @@ use crate::condensation::Operators;
 use crate::contact::{
     self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces, WarmStart,
 };
-use crate::cycle::{Neutral, wear_limit};
+use crate::cycle::{IncrementNumber, Neutral, retry, wear_limit};
 use crate::model::{Interface, Tangential};
 use crate::sides::{Side, Sides};
 
@@ -38,18 +38,7 @@ pub(super) struct Attempt {
 }
 
 /// One increment of all stations.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Increment {
-    /// Displacement of the slider before and after it, mm.
-    pub(super) from: f64,
-    pub(super) to: f64,
-    /// Cycles that it stands for.
-    pub(super) cycles: f64,
-    /// True if Lemke's method is tried.
-    pub(super) lemke: bool,
-    /// Number of the increment in its cycle and their number, if the last cycle has one like it to start from.
-    pub(super) like: Option<(usize, usize)>,
-}
+pub(super) type Increment = retry::Increment<IncrementNumber>;
 
 /// A station.
 pub(super) struct Station {
@@ -119,7 +108,7 @@ impl Station {
         raised: Option<f64>,
     ) -> Result<(), ContactError> {
         let earlier = raised.map(|by| self.predicted(by));
-        let like = increment.like.filter(|_| earlier.is_none());
+        let like = increment.start.filter(|_| earlier.is_none());
         let starts = std::mem::take(&mut self.state.warm_starts);
         let start = match &earlier {
             Some((first, contact)) => Some(WarmStart {
@@ -127,7 +116,7 @@ impl Station {
                 status: &contact.0,
                 pressure: &contact.1,
             }),
-            None => like.and_then(|(number, count)| starts.of(number, count)),
+            None => like.and_then(|number| starts.of(number)),
         };
         let mut solved = self.advance(increment, height, start, raised.is_some());
         if solved.is_err() && start.is_some() {
