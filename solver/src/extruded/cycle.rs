@@ -16,6 +16,7 @@ use crate::sides::{Side, Sides};
 
 /// Both bodies in contact.
 pub(super) struct Contact {
+    pub(super) bodies: Bodies,
     pub(super) interface: Interface,
     pub(super) spines: Spines,
     pub(super) planes: Planes,
@@ -32,7 +33,7 @@ type Increment = retry::Increment<IncrementNumber>;
 
 impl Contact {
     /// Unloaded, unworn bodies.
-    pub(super) fn new(bodies: &Bodies) -> Self {
+    pub(super) fn new(bodies: Bodies) -> Self {
         let (sections, interface) = (&bodies.operators.sections, bodies.unworn().interface);
         let planes = bodies.shares.len();
         let contact = ContactState::untouched(sections, interface.slave);
@@ -48,6 +49,7 @@ impl Contact {
         Self {
             interface,
             spines: Spines::of(bodies.unworn()),
+            bodies,
             planes: Planes {
                 states: vec![state; planes],
                 contacts: vec![contact.clone(); planes],
@@ -66,13 +68,13 @@ impl Contact {
     ///
     /// # Errors
     /// [`ContactError`] if there is no equilibrium.
-    pub(super) fn apply_load(&mut self, bodies: &Bodies) -> Result<(), ContactError> {
-        self.update_slopes(bodies);
-        self.advance(bodies, Increment::new(0.0, 0.0))?;
+    pub(super) fn apply_load(&mut self) -> Result<(), ContactError> {
+        self.update_slopes();
+        self.advance(Increment::new(0.0, 0.0))?;
         for contact in &mut self.planes.contacts {
             contact.reference_height = Some(contact.height);
         }
-        self.planes.mean_half_width = self.half_width(bodies);
+        self.planes.mean_half_width = self.half_width();
         Ok(())
     }
 
@@ -82,18 +84,17 @@ impl Contact {
     /// [`FailedIncrement`].
     pub(super) fn slide(
         &mut self,
-        bodies: &Bodies,
         steps: &[Step],
         cycles: f64,
         replays: &ReplayPlan,
     ) -> Result<LineRecord, FailedIncrement<ContactError>> {
-        self.update_slopes(bodies);
+        self.update_slopes();
         let mut starts = vec![WarmStarts::default(); self.planes.states.len()];
         let (mut half_widths, mut touching) = (0.0, 0);
         let (mut record, mut replayed) = (LineRecord::default(), Vec::new());
         for (number, step) in steps.iter().enumerate() {
             for &(_, end) in replays.spans.iter().filter(|span| span.0 == number) {
-                replayed.extend(self.replay(bodies, &steps[number..=end], replays));
+                replayed.extend(self.replay(&steps[number..=end], replays));
             }
             let start = IncrementNumber {
                 number,
@@ -104,20 +105,20 @@ impl Contact {
                 start: (cycles > 0.0).then_some(start),
                 ..Increment::new(self.slider_x(), step.slider_x)
             };
-            self.retried(bodies, increment)?;
+            self.retried(increment)?;
             for (starts, contact) in starts.iter_mut().zip(&self.planes.contacts) {
                 starts.push(contact);
             }
-            let half_width = self.half_width(bodies);
+            let half_width = self.half_width();
             if half_width > 0.0 {
                 half_widths += half_width;
                 touching += 1;
             }
-            let force_n = bodies.width_mm() * self.tangential_force(bodies);
-            record.push(step.slider_x, force_n, bodies.width_mm());
+            let force_n = self.bodies.width_mm() * self.tangential_force();
+            record.push(step.slider_x, force_n, self.bodies.width_mm());
             if let Some(position) = step.at {
                 let contacts = PositionContacts::take(&mut replayed, position);
-                let contacts = contacts.unwrap_or_else(|| self.contacts_at(bodies, position));
+                let contacts = contacts.unwrap_or_else(|| self.contacts_at(position));
                 let worst = &mut self.effort.checks.force_balance_present_normals;
                 *worst = worst.max(contacts.imbalance);
                 record.positions.push(contacts);
@@ -135,12 +136,7 @@ impl Contact {
     }
 
     /// The contacts at the end of steps that wear as a single cycle, from a copy of the state; nothing where one has no solution.
-    fn replay(
-        &mut self,
-        bodies: &Bodies,
-        steps: &[Step],
-        plan: &ReplayPlan,
-    ) -> Option<PositionContacts> {
+    fn replay(&mut self, steps: &[Step], plan: &ReplayPlan) -> Option<PositionContacts> {
         let (before, effort) = (self.planes.clone(), self.effort);
         let last = steps.last()?;
         let position = last.at?;
@@ -148,8 +144,8 @@ impl Contact {
         let smoothing = plan.smoothing(last.slider_x, direction);
         let lead_in = steps.iter().map(|step| (step.slider_x, 1));
         let mut parts = lead_in.chain(smoothing);
-        let replayed = parts.all(|(to, count)| self.replay_to(bodies, to, count));
-        let contacts = replayed.then(|| self.contacts_at(bodies, position));
+        let replayed = parts.all(|(to, count)| self.replay_to(to, count));
+        let contacts = replayed.then(|| self.contacts_at(position));
         self.planes = before;
         // Replays count as work, and not as increments of the cycle.
         self.effort = Effort {
@@ -160,20 +156,20 @@ impl Contact {
     }
 
     /// Slides to a place in equal parts with the wear of a single cycle; returns whether all have a solution.
-    fn replay_to(&mut self, bodies: &Bodies, to: f64, parts: usize) -> bool {
-        Increment::parts(self.slider_x(), to, parts).all(|part| self.retried(bodies, part).is_ok())
+    fn replay_to(&mut self, to: f64, parts: usize) -> bool {
+        Increment::parts(self.slider_x(), to, parts).all(|part| self.retried(part).is_ok())
     }
 
     /// The contacts of the present increment.
-    pub(super) fn contacts_at(&mut self, bodies: &Bodies, position: Position) -> PositionContacts {
+    pub(super) fn contacts_at(&mut self, position: Position) -> PositionContacts {
         let pair = &Pair {
-            operators: &bodies.operators.sections,
+            operators: &self.bodies.operators.sections,
             interface: self.interface,
         };
         let (mut force, mut found) = (0.0, Vec::new());
         let planes = self.planes.states.iter().zip(&self.planes.contacts);
-        for ((state, contact), share) in planes.zip(&bodies.shares) {
-            let sections = &bodies.operators.sections;
+        for ((state, contact), share) in planes.zip(&self.bodies.shares) {
+            let sections = &self.bodies.operators.sections;
             let slope = Sides::from_fn(|side| {
                 contact::slopes(sections.of(side), state.depth.of(side), side)
             });
@@ -199,9 +195,14 @@ impl Contact {
     }
 
     /// Force of the slider on the receptacle along the motion, mean over the width, N/mm.
-    fn tangential_force(&self, bodies: &Bodies) -> f64 {
-        let widths = &bodies.operators.sections.of(self.interface.slave).widths;
-        let planes = self.planes.contacts.iter().zip(&bodies.shares);
+    fn tangential_force(&self) -> f64 {
+        let widths = &self
+            .bodies
+            .operators
+            .sections
+            .of(self.interface.slave)
+            .widths;
+        let planes = self.planes.contacts.iter().zip(&self.bodies.shares);
         planes
             .map(|(contact, share)| share * contact.tangential_force(&self.interface, widths))
             .sum()
@@ -212,10 +213,10 @@ impl Contact {
     }
 
     /// Mean half-width of the planes in contact, weighted by their lengths, mm.
-    pub(super) fn half_width(&self, bodies: &Bodies) -> f64 {
-        let x = &bodies.operators.sections.of(self.interface.slave).x;
+    pub(super) fn half_width(&self) -> f64 {
+        let x = &self.bodies.operators.sections.of(self.interface.slave).x;
         let (mut sum, mut length) = (0.0, 0.0);
-        for (contact, share) in self.planes.contacts.iter().zip(&bodies.shares) {
+        for (contact, share) in self.planes.contacts.iter().zip(&self.bodies.shares) {
             let half_width = contact.half_width(x);
             if half_width > 0.0 {
                 sum += share * half_width;
@@ -226,8 +227,8 @@ impl Contact {
     }
 
     /// Takes the normals of the surfaces as worn now.
-    fn update_slopes(&mut self, bodies: &Bodies) {
-        let sections = &bodies.operators.sections;
+    fn update_slopes(&mut self) {
+        let sections = &self.bodies.operators.sections;
         let of_plane = |state: &PlaneState| {
             Sides::from_fn(|side| contact::slopes(sections.of(side), state.depth.of(side), side))
         };
@@ -235,18 +236,12 @@ impl Contact {
     }
 
     /// Takes an increment, from the last contact if it fails from another start, and in halves if it fails as a whole.
-    fn retried(
-        &mut self,
-        bodies: &Bodies,
-        increment: Increment,
-    ) -> Result<(), FailedIncrement<ContactError>> {
-        halve_and_retry(increment, RETRY, |increment| {
-            self.advance(bodies, increment)
-        })
+    fn retried(&mut self, increment: Increment) -> Result<(), FailedIncrement<ContactError>> {
+        halve_and_retry(increment, RETRY, |increment| self.advance(increment))
     }
 
     /// Solves an increment and makes it part of the state.
-    fn advance(&mut self, bodies: &Bodies, increment: Increment) -> Result<(), ContactError> {
+    fn advance(&mut self, increment: Increment) -> Result<(), ContactError> {
         let Increment {
             to, cycles, start, ..
         } = increment;
@@ -263,9 +258,9 @@ impl Contact {
             states.map(|state| state.warm_starts.of(number)).collect()
         });
         let extruded = Extruded {
-            operators: &bodies.operators,
+            operators: &self.bodies.operators,
             interface: self.interface,
-            shares: &bodies.shares,
+            shares: &self.bodies.shares,
         };
         let slide = Slide {
             slider_x: to,
@@ -280,12 +275,12 @@ impl Contact {
             let recession = worn.recession.as_slices();
             wear_limit::check(&self.spines, &state.depth, to, worn.first, recession)?;
         }
-        self.accept(bodies, solved, cycles);
+        self.accept(solved, cycles);
         Ok(())
     }
 
     /// Makes a solved increment part of the state.
-    fn accept(&mut self, bodies: &Bodies, solved: Solved, cycles: f64) {
+    fn accept(&mut self, solved: Solved, cycles: f64) {
         for (state, worn) in self.planes.states.iter_mut().zip(&self.worn) {
             for side in Side::BOTH {
                 *state.worn_area.of_mut(side) += worn.worn_area.of(side);
@@ -299,7 +294,12 @@ impl Contact {
             state.line_load = worn.vertical_force;
         }
         std::mem::swap(&mut self.planes.contacts, &mut self.next);
-        let widths = &bodies.operators.sections.of(self.interface.slave).widths;
+        let widths = &self
+            .bodies
+            .operators
+            .sections
+            .of(self.interface.slave)
+            .widths;
         let effort = &mut self.effort;
         effort.increments += 1;
         effort.iterations += solved.iterations;

@@ -25,7 +25,6 @@ pub(crate) struct ExtrudedIntegrator {
     scene: ExtrudedScene,
     /// The plane section.
     plane: Scene,
-    bodies: Bodies,
     contact: Contact,
     common: CommonPlaneState,
     /// Record of the last computed cycle.
@@ -42,14 +41,14 @@ impl ExtrudedIntegrator {
         plan: &EffectsPlan,
     ) -> Result<(Self, ExtrudedState), ExtrudedError> {
         let mut run = Self::unloaded(scene, plan)?;
-        while let Err(source) = run.contact.apply_load(&run.bodies) {
+        while let Err(source) = run.contact.apply_load() {
             run.widen_or(FailedIncrement {
                 halvings: 0,
                 source,
             })?;
         }
         run.common.unworn_half_width = run.contact.planes.mean_half_width;
-        let positions = vec![run.contact.contacts_at(&run.bodies, Position::Neutral)];
+        let positions = vec![run.contact.contacts_at(Position::Neutral)];
         run.take_record(LineRecord {
             positions,
             ..LineRecord::default()
@@ -81,12 +80,10 @@ impl ExtrudedIntegrator {
         if plane.cycles > 0 {
             scene.check_slip()?;
         }
-        let bodies = Bodies::new(scene, built)?;
         Ok(Self {
             scene: scene.clone(),
             plane,
-            contact: Contact::new(&bodies),
-            bodies,
+            contact: Contact::new(Bodies::new(scene, built)?),
             common: CommonPlaneState::default(),
             record: LineRecord::default(),
         })
@@ -101,9 +98,7 @@ impl ExtrudedIntegrator {
         let quarter = increments::initial_quarter(&steps);
         loop {
             let before = self.contact.planes.clone();
-            let slid = self
-                .contact
-                .slide(&self.bodies, quarter, 0.0, &ReplayPlan::default());
+            let slid = self.contact.slide(quarter, 0.0, &ReplayPlan::default());
             let Err(failed) = slid else {
                 return Ok(());
             };
@@ -134,7 +129,7 @@ impl ExtrudedIntegrator {
             let plan = self.cycle_plan(Cycles { done, jump });
             let steps = increments::steps(self.scene.section.motion, plan.steps);
             let (contact, cycles) = (&mut self.contact, real_cycles(jump));
-            let failed = match contact.slide(&self.bodies, &steps, cycles, &plan.replays) {
+            let failed = match contact.slide(&steps, cycles, &plan.replays) {
                 Ok(record) => {
                     let control = self.common.jump.clone();
                     self.measure_jump(&before, jump);
@@ -182,7 +177,7 @@ impl ExtrudedIntegrator {
         self.contact.planes.clone_from(&state.planes);
         self.contact.effort = state.effort;
         self.common.clone_from(&state.common);
-        self.bodies.follow(&self.common)
+        self.contact.bodies.follow(&self.common)
     }
 
     /// The state after the last cycle.
@@ -198,12 +193,16 @@ impl ExtrudedIntegrator {
     fn follow_wear(&mut self) -> Result<(), ExtrudedError> {
         let states = &self.contact.planes.states;
         let depths = || states.iter().map(|state| &state.depth);
-        if !self.bodies.have_drifted(depths(), &self.plane.accuracy) {
+        if !self
+            .contact
+            .bodies
+            .have_drifted(depths(), &self.plane.accuracy)
+        {
             return Ok(());
         }
         self.common.built = depths().cloned().collect();
         self.common.relocations += 1;
-        self.bodies.follow(&self.common)
+        self.contact.bodies.follow(&self.common)
     }
 
     /// Gives the bodies wider zones of fine elements.
@@ -216,7 +215,7 @@ impl ExtrudedIntegrator {
         }
         self.common.widenings += 1;
         self.common.relocations += 1;
-        self.bodies.follow(&self.common)
+        self.contact.bodies.follow(&self.common)
     }
 
     fn solves(&self) -> (usize, usize) {

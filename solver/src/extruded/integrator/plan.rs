@@ -45,13 +45,19 @@ impl ExtrudedIntegrator {
 
     /// Measures what the next jump depends on. Its error is that of the volume: nodes weigh by their width and by the length of their plane.
     pub(super) fn measure_jump(&mut self, before: &Planes, jump: u64) {
-        let shares = &self.bodies.shares;
-        let widths = self.bodies.operators.sections.as_ref().map(|section| {
-            let planes = shares.iter();
-            let planes =
-                planes.flat_map(|share| section.widths.iter().map(move |width| share * width));
-            planes.collect::<Vec<f64>>()
-        });
+        let shares = &self.contact.bodies.shares;
+        let widths = self
+            .contact
+            .bodies
+            .operators
+            .sections
+            .as_ref()
+            .map(|section| {
+                let planes = shares.iter();
+                let planes =
+                    planes.flat_map(|share| section.widths.iter().map(move |width| share * width));
+                planes.collect::<Vec<f64>>()
+            });
         let depths = |planes: &Planes| {
             Sides::from_fn(|side| {
                 let depths = planes.states.iter().flat_map(|state| state.depth.of(side));
@@ -92,7 +98,7 @@ impl ExtrudedIntegrator {
     /// Mean half-width of the contact of a single cycle, mm: planes take the load from each other.
     fn single_cycle_half_width(&self) -> f64 {
         let states = self.contact.planes.states.iter();
-        let planes = states.zip(&self.bodies.shares);
+        let planes = states.zip(&self.contact.bodies.shares);
         let mean: f64 = planes
             .map(|(state, share)| share * state.neutral.half_width)
             .sum();

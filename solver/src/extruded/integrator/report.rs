@@ -21,8 +21,8 @@ impl ExtrudedIntegrator {
 
     /// Distances of the planes from the middle of the width, and the lengths that they stand for with their mirror images, mm.
     fn places(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
-        let (z, width) = (self.bodies.planes.z(), self.scene.width_mm);
-        let shares = self.bodies.shares.iter();
+        let (z, width) = (self.contact.bodies.planes.z(), self.scene.width_mm);
+        let shares = self.contact.bodies.shares.iter();
         z.iter()
             .zip(shares)
             .map(move |(z, share)| (0.5 * width - z, share * width))
@@ -86,7 +86,7 @@ impl ExtrudedIntegrator {
 
     /// Integrals of worn depths of a plane, mm^2.
     fn worn_section(&self, depth: &Sides<Vec<f64>>) -> Sides<f64> {
-        let sections = &self.bodies.operators.sections;
+        let sections = &self.contact.bodies.operators.sections;
         Sides::from_fn(|side| {
             let nodes = depth.of(side).iter().zip(&sections.of(side).widths);
             nodes.map(|(depth, width)| depth * width).sum()
@@ -136,7 +136,7 @@ impl ExtrudedIntegrator {
 
     /// The plane in the middle of the width.
     pub(crate) fn reference(&self) -> usize {
-        self.bodies.planes.count() - 1
+        self.contact.bodies.planes.count() - 1
     }
 
     /// Distance by which the slider has sunk since first touch, by deformation and wear, mm.
@@ -166,7 +166,7 @@ impl ExtrudedIntegrator {
 
     /// Node planes, and the section in each of them as when the operators were built, with these.
     pub(crate) fn condensed(&self) -> (&NodePlanes, &[Model], &ExtrudedOperators) {
-        let bodies = &self.bodies;
+        let bodies = &self.contact.bodies;
         (&bodies.planes, &bodies.models, &bodies.operators)
     }
 
@@ -190,9 +190,9 @@ impl ExtrudedIntegrator {
 
     /// Worn depths of both bodies in a plane.
     pub(crate) fn profile(&self, plane: usize) -> StationProfile {
-        let sections = &self.bodies.operators.sections;
+        let sections = &self.contact.bodies.operators.sections;
         StationProfile {
-            weight_mm: self.bodies.shares[plane] * self.scene.width_mm,
+            weight_mm: self.contact.bodies.shares[plane] * self.scene.width_mm,
             x_mm: sections.as_ref().map(|section| section.x.clone()),
             depth_mm: self.contact.planes.states[plane].depth.clone(),
         }
@@ -213,11 +213,11 @@ impl ExtrudedIntegrator {
 
     /// Degrees of freedom of both meshes, contact elements of the receptacle, and their size in mm.
     pub(crate) fn size(&self) -> (usize, usize, f64) {
-        let model = self.bodies.unworn();
+        let model = self.contact.bodies.unworn();
         let nodes = model.bodies.receptacle.contact_x().len();
         (
-            self.bodies.dofs(),
-            self.bodies.planes.count() * (nodes - 1),
+            self.contact.bodies.dofs(),
+            self.contact.bodies.planes.count() * (nodes - 1),
             model.sizes.contact_element,
         )
     }
