@@ -2,11 +2,13 @@
 //! node planes.
 
 mod record;
+mod slide;
 
 use serde::{Deserialize, Serialize};
 
 use crate::sides::{Side, Sides};
 pub(crate) use record::{LineRecord, PositionContacts};
+pub(crate) use slide::{Sections, SectionsIncrement, slide};
 
 /// Where a section lies on its line.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

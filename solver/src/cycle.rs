@@ -15,6 +15,7 @@ mod cycle_record;
 mod extrapolation;
 mod friction;
 mod groove;
+mod half_width;
 mod heating;
 mod increment;
 mod mission_state;
@@ -44,6 +45,7 @@ use crate::sides::Sides;
 
 pub use checks::Checks;
 pub use cycle_record::{CycleRecord, FrictionLoop, Neutral};
+pub(crate) use half_width::MeanHalfWidth;
 use heating::Heating;
 pub use mission_state::BlockWear;
 pub(crate) use mission_state::MissionState;
@@ -249,7 +251,8 @@ impl<'a> Integrator<'a> {
         let mut passes = Passes::begin(self.equivalents(&state.depth));
         let warm_starts = std::mem::take(&mut state.warm_starts);
         let mut next_starts = WarmStarts::default();
-        let (mut half_widths, mut touching, mut done, mut neutral) = (0.0, 0, 0, 0);
+        let mut half_widths = MeanHalfWidth::default();
+        let (mut done, mut neutral) = (0, 0);
         let friction = self.pair.interface.friction;
         for (increment, step) in steps.iter().enumerate() {
             self.stroke = step.stroke;
@@ -271,11 +274,7 @@ impl<'a> Integrator<'a> {
             });
             self.step(state, step, real_cycles(jump), increment, start)?;
             next_starts.push(&state.contact);
-            let half_width = state.contact.half_width(&self.pair.slave().x);
-            if half_width > 0.0 {
-                half_widths += half_width;
-                touching += 1;
-            }
+            half_widths.push(state.contact.half_width(&self.pair.slave().x));
             let is_reported = !is_unskewed && !replays.are_planned();
             self.record(&mut record, state, step.at, &mut replays, is_reported);
             if step.at == Some(Position::Leftmost) {
@@ -305,9 +304,7 @@ impl<'a> Integrator<'a> {
         state.wear_of_strokes[1] = self.wear_per_cycle(state, &before, cycles);
         state.friction_per_cycle = 0.5 * (friction + self.pair.interface.friction);
         state.energy_per_cycle = (state.energy - energy) / real_cycles(cycles);
-        if touching > 0 {
-            state.mean_half_width = half_widths / real(touching);
-        }
+        state.mean_half_width = half_widths.mean_mm().unwrap_or(state.mean_half_width);
         state.computed_cycles += 1;
         state.warm_starts = next_starts;
         state.most_increments = state.most_increments.max(steps.len());

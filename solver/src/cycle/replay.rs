@@ -31,12 +31,9 @@ impl Replays {
     ) {
         for &(_, end) in self.plan.spans.iter().filter(|span| span.0 == next) {
             let mut single = state.clone();
-            let mut lead_in = steps[next..=end].iter();
-            let place = steps[end].slider_x;
-            let direction = (place - steps[end.saturating_sub(1)].slider_x).signum();
-            let mut smoothing = self.plan.smoothing(place, direction).into_iter();
-            let succeeded = lead_in.all(|step| solve(&mut single, step.slider_x, 1))
-                && smoothing.all(|(to, parts)| solve(&mut single, to, parts));
+            let from = single.contact.slider_x;
+            let mut path = self.plan.path(from, &steps[next..=end]).into_iter();
+            let succeeded = path.all(|(to, parts)| solve(&mut single, to, parts));
             state.work = single.work;
             if let (true, Some(position)) = (succeeded, steps[end].at) {
                 state.checks = single.checks;

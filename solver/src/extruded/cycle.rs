@@ -3,15 +3,14 @@
 use super::bodies::Bodies;
 use super::state::{Effort, PlaneState, Planes};
 use crate::ale::Spines;
-use crate::along_line::{LineRecord, PositionContacts};
+use crate::along_line::{PositionContacts, Sections, SectionsIncrement};
 use crate::contact::planes::{Extruded, ExtrudedSolver, PlaneWear, Slide, Solved};
 use crate::contact::{self, ContactError, ContactState, Pair, Solver, Surfaces, WarmStart, Work};
-use crate::cycle::retry::{self, FailedIncrement, RETRY, halve_and_retry};
-use crate::cycle::{IncrementNumber, Neutral, WarmStarts, wear_limit};
+use crate::cycle::retry::{RETRY, RetryPolicy};
+use crate::cycle::{Neutral, WarmStarts, wear_limit};
 use crate::model::Interface;
-use crate::number::{count, real};
-use crate::schedule::replay::ReplayPlan;
-use crate::schedule::step::{Position, Step};
+use crate::number::count;
+use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
 
 /// Both bodies in contact.
@@ -28,8 +27,6 @@ pub(super) struct Contact {
     next: Vec<ContactState>,
     worn: Vec<PlaneWear>,
 }
-
-type Increment = retry::Increment<IncrementNumber>;
 
 impl Contact {
     /// Unloaded, unworn bodies.
@@ -70,128 +67,12 @@ impl Contact {
     /// [`ContactError`] if there is no equilibrium.
     pub(super) fn apply_load(&mut self) -> Result<(), ContactError> {
         self.update_slopes();
-        self.advance(Increment::new(0.0, 0.0))?;
+        self.advance(SectionsIncrement::new(0.0, 0.0))?;
         for contact in &mut self.planes.contacts {
             contact.reference_height = Some(contact.height);
         }
         self.planes.mean_half_width = self.half_width();
         Ok(())
-    }
-
-    /// Takes steps, each of which stands for so many cycles, with replays of single ones.
-    ///
-    /// # Errors
-    /// [`FailedIncrement`].
-    pub(super) fn slide(
-        &mut self,
-        steps: &[Step],
-        cycles: f64,
-        replays: &ReplayPlan,
-    ) -> Result<LineRecord, FailedIncrement<ContactError>> {
-        self.update_slopes();
-        let mut starts = vec![WarmStarts::default(); self.planes.states.len()];
-        let (mut half_widths, mut touching) = (0.0, 0);
-        let (mut record, mut replayed) = (LineRecord::default(), Vec::new());
-        for (number, step) in steps.iter().enumerate() {
-            for &(_, end) in replays.spans.iter().filter(|span| span.0 == number) {
-                replayed.extend(self.replay(&steps[number..=end], replays));
-            }
-            let start = IncrementNumber {
-                number,
-                count: steps.len(),
-            };
-            let increment = Increment {
-                cycles,
-                start: (cycles > 0.0).then_some(start),
-                ..Increment::new(self.slider_x(), step.slider_x)
-            };
-            self.retried(increment)?;
-            for (starts, contact) in starts.iter_mut().zip(&self.planes.contacts) {
-                starts.push(contact);
-            }
-            let half_width = self.half_width();
-            if half_width > 0.0 {
-                half_widths += half_width;
-                touching += 1;
-            }
-            let force_n = self.bodies.width_mm() * self.tangential_force();
-            record.push(step.slider_x, force_n, self.bodies.width_mm());
-            if let Some(position) = step.at {
-                let contacts = PositionContacts::take(&mut replayed, position);
-                let contacts = contacts.unwrap_or_else(|| self.contacts_at(position));
-                let worst = &mut self.effort.checks.force_balance_present_normals;
-                *worst = worst.max(contacts.imbalance);
-                record.positions.push(contacts);
-            }
-        }
-        if cycles > 0.0 {
-            for (state, starts) in self.planes.states.iter_mut().zip(starts) {
-                state.warm_starts = starts;
-            }
-            if touching > 0 {
-                self.planes.mean_half_width = half_widths / real(touching);
-            }
-        }
-        Ok(record)
-    }
-
-    /// The contacts at the end of steps that wear as a single cycle, from a copy of the state; nothing where one has no solution.
-    fn replay(&mut self, steps: &[Step], plan: &ReplayPlan) -> Option<PositionContacts> {
-        let (before, effort) = (self.planes.clone(), self.effort);
-        let last = steps.last()?;
-        let position = last.at?;
-        let direction = (last.slider_x - self.slider_x()).signum();
-        let smoothing = plan.smoothing(last.slider_x, direction);
-        let lead_in = steps.iter().map(|step| (step.slider_x, 1));
-        let mut parts = lead_in.chain(smoothing);
-        let replayed = parts.all(|(to, count)| self.replay_to(to, count));
-        let contacts = replayed.then(|| self.contacts_at(position));
-        self.planes = before;
-        // Replays count as work, and not as increments of the cycle.
-        self.effort = Effort {
-            work: self.effort.work,
-            ..effort
-        };
-        contacts
-    }
-
-    /// Slides to a place in equal parts with the wear of a single cycle; returns whether all have a solution.
-    fn replay_to(&mut self, to: f64, parts: usize) -> bool {
-        Increment::parts(self.slider_x(), to, parts).all(|part| self.retried(part).is_ok())
-    }
-
-    /// The contacts of the present increment.
-    pub(super) fn contacts_at(&mut self, position: Position) -> PositionContacts {
-        let pair = &Pair {
-            operators: &self.bodies.operators.sections,
-            interface: self.interface,
-        };
-        let (mut force, mut found) = (0.0, Vec::new());
-        let planes = self.planes.states.iter().zip(&self.planes.contacts);
-        for ((state, contact), share) in planes.zip(&self.bodies.shares) {
-            let sections = &self.bodies.operators.sections;
-            let slope = Sides::from_fn(|side| {
-                contact::slopes(sections.of(side), state.depth.of(side), side)
-            });
-            let surfaces = Surfaces {
-                depth: state.depth.as_slices(),
-                slope: slope.as_slices(),
-                friction: Sides::default(),
-            };
-            force += share * self.of_plane.vertical_force_on(pair, &surfaces, contact);
-            found.push(Neutral {
-                load: state.line_load,
-                ..Neutral::of(contact, pair)
-            });
-        }
-        let load = self.planes.contacts[0].load(&self.interface);
-        PositionContacts {
-            position,
-            slider_x: self.slider_x(),
-            contacts: self.planes.contacts.clone(),
-            found,
-            imbalance: (force - load).abs() / self.interface.load,
-        }
     }
 
     /// Force of the slider on the receptacle along the motion, mean over the width, N/mm.
@@ -208,10 +89,6 @@ impl Contact {
             .sum()
     }
 
-    pub(super) fn slider_x(&self) -> f64 {
-        self.planes.contacts[0].slider_x
-    }
-
     /// Mean half-width of the planes in contact, weighted by their lengths, mm.
     pub(super) fn half_width(&self) -> f64 {
         let x = &self.bodies.operators.sections.of(self.interface.slave).x;
@@ -224,59 +101,6 @@ impl Contact {
             }
         }
         if length > 0.0 { sum / length } else { 0.0 }
-    }
-
-    /// Takes the normals of the surfaces as worn now.
-    fn update_slopes(&mut self) {
-        let sections = &self.bodies.operators.sections;
-        let of_plane = |state: &PlaneState| {
-            Sides::from_fn(|side| contact::slopes(sections.of(side), state.depth.of(side), side))
-        };
-        self.slopes = self.planes.states.iter().map(of_plane).collect();
-    }
-
-    /// Takes an increment, from the last contact if it fails from another start, and in halves if it fails as a whole.
-    fn retried(&mut self, increment: Increment) -> Result<(), FailedIncrement<ContactError>> {
-        halve_and_retry(increment, RETRY, |increment| self.advance(increment))
-    }
-
-    /// Solves an increment and makes it part of the state.
-    fn advance(&mut self, increment: Increment) -> Result<(), ContactError> {
-        let Increment {
-            to, cycles, start, ..
-        } = increment;
-        let pairs = self.planes.states.iter().zip(&self.slopes);
-        let surfaces: Vec<Surfaces<'_>> = pairs
-            .map(|(state, slope)| Surfaces {
-                depth: state.depth.as_slices(),
-                slope: slope.as_slices(),
-                friction: Sides::default(),
-            })
-            .collect();
-        let starts: Option<Vec<WarmStart<'_>>> = start.and_then(|number| {
-            let states = self.planes.states.iter();
-            states.map(|state| state.warm_starts.of(number)).collect()
-        });
-        let extruded = Extruded {
-            operators: &self.bodies.operators,
-            interface: self.interface,
-            shares: &self.bodies.shares,
-        };
-        let slide = Slide {
-            slider_x: to,
-            cycles,
-            starts: starts.as_deref(),
-        };
-        let (last, next, worn) = (&self.planes.contacts, &mut self.next, &mut self.worn);
-        let solved = self
-            .solver
-            .advance(&extruded, &surfaces, last, slide, next, worn)?;
-        for (state, worn) in self.planes.states.iter().zip(&self.worn) {
-            let recession = worn.recession.as_slices();
-            wear_limit::check(&self.spines, &state.depth, to, worn.first, recession)?;
-        }
-        self.accept(solved, cycles);
-        Ok(())
     }
 
     /// Makes a solved increment part of the state.
@@ -314,6 +138,138 @@ impl Contact {
         checks.complementarity = checks.complementarity.max(solved.residual);
         for contact in &self.planes.contacts {
             checks.friction_use = checks.friction_use.max(contact.friction_use(widths));
+        }
+    }
+}
+
+impl Sections for Contact {
+    type Error = ContactError;
+    type Saved = (Planes, Effort);
+    const RETRY: RetryPolicy = RETRY;
+
+    fn advance(&mut self, increment: SectionsIncrement) -> Result<(), ContactError> {
+        let SectionsIncrement {
+            to, cycles, start, ..
+        } = increment;
+        let pairs = self.planes.states.iter().zip(&self.slopes);
+        let surfaces: Vec<Surfaces<'_>> = pairs
+            .map(|(state, slope)| Surfaces {
+                depth: state.depth.as_slices(),
+                slope: slope.as_slices(),
+                friction: Sides::default(),
+            })
+            .collect();
+        let starts: Option<Vec<WarmStart<'_>>> = start.and_then(|number| {
+            let states = self.planes.states.iter();
+            states.map(|state| state.warm_starts.of(number)).collect()
+        });
+        let extruded = Extruded {
+            operators: &self.bodies.operators,
+            interface: self.interface,
+            shares: &self.bodies.shares,
+        };
+        let slide = Slide {
+            slider_x: to,
+            cycles,
+            starts: starts.as_deref(),
+        };
+        let (last, next, worn) = (&self.planes.contacts, &mut self.next, &mut self.worn);
+        let solved = self
+            .solver
+            .advance(&extruded, &surfaces, last, slide, next, worn)?;
+        for (state, worn) in self.planes.states.iter().zip(&self.worn) {
+            let recession = worn.recession.as_slices();
+            wear_limit::check(&self.spines, &state.depth, to, worn.first, recession)?;
+        }
+        self.accept(solved, cycles);
+        Ok(())
+    }
+
+    fn update_slopes(&mut self) {
+        let sections = &self.bodies.operators.sections;
+        let of_plane = |state: &PlaneState| {
+            Sides::from_fn(|side| contact::slopes(sections.of(side), state.depth.of(side), side))
+        };
+        self.slopes = self.planes.states.iter().map(of_plane).collect();
+    }
+
+    fn save(&self) -> (Planes, Effort) {
+        (self.planes.clone(), self.effort)
+    }
+
+    /// Replays count as work, and not as increments of the cycle.
+    fn end_replay(&mut self, before: (Planes, Effort)) {
+        let (planes, effort) = before;
+        self.planes = planes;
+        self.effort = Effort {
+            work: self.effort.work,
+            ..effort
+        };
+    }
+
+    fn slider_x(&self) -> f64 {
+        self.planes.contacts[0].slider_x
+    }
+
+    fn contacts(&self) -> impl Iterator<Item = &ContactState> {
+        self.planes.contacts.iter()
+    }
+
+    fn half_widths(&self) -> Vec<f64> {
+        vec![self.half_width()]
+    }
+
+    fn tangential_force_n(&self) -> f64 {
+        self.bodies.width_mm() * self.tangential_force()
+    }
+
+    fn length_mm(&self) -> f64 {
+        self.bodies.width_mm()
+    }
+
+    fn contacts_at(&mut self, position: Position) -> PositionContacts {
+        let pair = &Pair {
+            operators: &self.bodies.operators.sections,
+            interface: self.interface,
+        };
+        let (mut force, mut found) = (0.0, Vec::new());
+        let planes = self.planes.states.iter().zip(&self.planes.contacts);
+        for ((state, contact), share) in planes.zip(&self.bodies.shares) {
+            let sections = &self.bodies.operators.sections;
+            let slope = Sides::from_fn(|side| {
+                contact::slopes(sections.of(side), state.depth.of(side), side)
+            });
+            let surfaces = Surfaces {
+                depth: state.depth.as_slices(),
+                slope: slope.as_slices(),
+                friction: Sides::default(),
+            };
+            force += share * self.of_plane.vertical_force_on(pair, &surfaces, contact);
+            found.push(Neutral {
+                load: state.line_load,
+                ..Neutral::of(contact, pair)
+            });
+        }
+        let load = self.planes.contacts[0].load(&self.interface);
+        PositionContacts {
+            position,
+            slider_x: self.slider_x(),
+            contacts: self.planes.contacts.clone(),
+            found,
+            imbalance: (force - load).abs() / self.interface.load,
+        }
+    }
+
+    fn worst_imbalance(&mut self) -> &mut f64 {
+        &mut self.effort.checks.force_balance_present_normals
+    }
+
+    fn end_cycle(&mut self, starts: Vec<WarmStarts>, half_widths_mm: Vec<Option<f64>>) {
+        for (state, starts) in self.planes.states.iter_mut().zip(starts) {
+            state.warm_starts = starts;
+        }
+        if let [Some(half_width)] = half_widths_mm[..] {
+            self.planes.mean_half_width = half_width;
         }
     }
 }

@@ -8,7 +8,7 @@ use super::cycle::Contact;
 use super::error::ExtrudedError;
 use super::scene::ExtrudedScene;
 use super::state::{CommonPlaneState, ExtrudedState};
-use crate::along_line::LineRecord;
+use crate::along_line::{LineRecord, Sections, slide};
 use crate::contact::ContactError;
 use crate::cycle::retry::FailedIncrement;
 use crate::effects::EffectsPlan;
@@ -98,7 +98,7 @@ impl ExtrudedIntegrator {
         let quarter = increments::initial_quarter(&steps);
         loop {
             let before = self.contact.planes.clone();
-            let slid = self.contact.slide(quarter, 0.0, &ReplayPlan::default());
+            let slid = slide(&mut self.contact, quarter, 0.0, &ReplayPlan::default());
             let Err(failed) = slid else {
                 return Ok(());
             };
@@ -129,7 +129,7 @@ impl ExtrudedIntegrator {
             let plan = self.cycle_plan(Cycles { done, jump });
             let steps = increments::steps(self.scene.section.motion, plan.steps);
             let (contact, cycles) = (&mut self.contact, real_cycles(jump));
-            let failed = match contact.slide(&steps, cycles, &plan.replays) {
+            let failed = match slide(contact, &steps, cycles, &plan.replays) {
                 Ok(record) => {
                     let control = self.common.jump.clone();
                     self.measure_jump(&before, jump);

@@ -10,7 +10,7 @@
 
 use crate::number::count_at_least;
 use crate::scene::Accuracy;
-use crate::schedule::step::Named;
+use crate::schedule::step::{Named, Step};
 
 /// The steps that replays are taken from.
 #[derive(Debug, Clone, Copy)]
@@ -83,9 +83,20 @@ impl ReplayPlan {
         }
     }
 
+    /// Where the parts of a replay end, and the number of increments of each: the steps of the lead-in from a place in mm on, then the
+    /// smoothing pass.
+    pub(crate) fn path(&self, from: f64, steps: &[Step]) -> Vec<(f64, usize)> {
+        let mut path: Vec<(f64, usize)> = steps.iter().map(|step| (step.slider_x, 1)).collect();
+        if let Some(last) = steps.last() {
+            let direction = (last.slider_x - from).signum();
+            path.extend(self.smoothing(last.slider_x, direction));
+        }
+        path
+    }
+
     /// Parts of the smoothing pass about a place, within the stroke: where each ends, and the number of its increments. It
     /// begins in a direction (its sign).
-    pub(crate) fn smoothing(&self, place: f64, direction: f64) -> Vec<(f64, usize)> {
+    fn smoothing(&self, place: f64, direction: f64) -> Vec<(f64, usize)> {
         let (far, near) = (self.smoothing * direction, self.fine * direction);
         let (long, short) = (self.long_step, self.short_step);
         let there = [(far, long), (near, long)];

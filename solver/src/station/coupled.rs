@@ -5,8 +5,9 @@
 
 use super::coupling::Coupling;
 use super::height::{Height, HeightSolution};
-use super::section::{Increment, Station};
+use super::section::Station;
 use super::top::{BALANCED, Carrier, MOST_ITERATIONS, Unsolved, indentation, solve};
+use crate::along_line::SectionsIncrement;
 use crate::linear::DenseLu;
 
 /// Largest step of a station's height over the largest indentation.
@@ -34,7 +35,7 @@ impl Carrier {
         coupling: &Coupling,
         stations: &mut [Station],
         last: &Height,
-        increment: Increment,
+        increment: SectionsIncrement,
     ) -> Result<HeightSolution, Unsolved> {
         let mut v = last.predicted(increment.cycles);
         let mut lifts = last.predicted_lifts(coupling.order(), increment.cycles);

@@ -1,21 +1,14 @@
 //! Increments of a computed cycle: all stations take the same ones, and halve them together.
 
 use super::height::Height;
-use super::section::{Increment, Station};
+use super::section::Station;
 use super::state::{CommonLineState, StationState};
 use super::top::{Carrier, Unsolved};
-use crate::along_line::{LineRecord, PositionContacts};
-use crate::cycle::retry::{FailedIncrement, IncrementError, RETRY, RetryPolicy, halve_and_retry};
-use crate::cycle::{IncrementNumber, WarmStarts};
-use crate::number::real;
-use crate::schedule::replay::ReplayPlan;
-use crate::schedule::step::{Position, Step};
-
-/// Sections repeat a solve from the last contact themselves.
-const SECTIONS_RETRY: RetryPolicy = RetryPolicy {
-    from_last_contact: false,
-    ..RETRY
-};
+use crate::along_line::{PositionContacts, Sections, SectionsIncrement};
+use crate::contact::ContactState;
+use crate::cycle::WarmStarts;
+use crate::cycle::retry::{IncrementError, RETRY, RetryPolicy};
+use crate::schedule::step::Position;
 
 /// The stations on their carrier, with the slider at a place.
 pub(super) struct Line {
@@ -32,103 +25,69 @@ pub(super) struct SavedLine {
     slider_x: f64,
 }
 
-impl Line {
-    /// Takes the steps of a cycle, each of which stands for so many cycles, with replays of single ones.
-    ///
-    /// # Errors
-    /// [`FailedIncrement`].
-    pub(super) fn slide(
-        &mut self,
-        steps: &[Step],
-        cycles: f64,
-        replays: &ReplayPlan,
-    ) -> Result<LineRecord, FailedIncrement<Unsolved>> {
-        let count = self.stations.len();
-        let mut starts = vec![WarmStarts::default(); count];
-        let (mut half_widths, mut touching) = (vec![0.0; count], vec![0; count]);
-        let (mut record, mut replayed) = (LineRecord::default(), Vec::new());
-        for station in &mut self.stations {
-            station.update_slopes();
-        }
-        for (number, step) in steps.iter().enumerate() {
-            for &(_, end) in replays.spans.iter().filter(|span| span.0 == number) {
-                replayed.extend(self.replay(&steps[number..=end], replays));
-            }
-            let start = IncrementNumber {
-                number,
-                count: steps.len(),
-            };
-            self.retried(Increment {
-                cycles,
-                start: (cycles > 0.0).then_some(start),
-                ..Increment::new(self.common.slider_x, step.slider_x)
-            })?;
-            for (j, station) in self.stations.iter().enumerate() {
-                starts[j].push(&station.state.contact);
-                let half_width = station.half_width();
-                if half_width > 0.0 {
-                    half_widths[j] += half_width;
-                    touching[j] += 1;
-                }
-            }
-            record.push(step.slider_x, self.tangential_force_n(), self.length_mm());
-            if let Some(position) = step.at {
-                let contacts = PositionContacts::take(&mut replayed, position);
-                let contacts = contacts.unwrap_or_else(|| self.contacts_at(position));
-                let worst = &mut self.common.imbalance;
-                *worst = worst.max(contacts.imbalance);
-                record.positions.push(contacts);
-            }
-        }
-        if cycles > 0.0 {
-            for (j, station) in self.stations.iter_mut().enumerate() {
-                station.state.warm_starts = std::mem::take(&mut starts[j]);
-                if touching[j] > 0 {
-                    station.state.mean_half_width = half_widths[j] / real(touching[j]);
-                }
-            }
-        }
-        Ok(record)
+impl Sections for Line {
+    type Error = Unsolved;
+    type Saved = SavedLine;
+    /// Sections repeat a solve from the last contact one by one.
+    const RETRY: RetryPolicy = RetryPolicy {
+        from_last_contact: false,
+        ..RETRY
+    };
+
+    fn advance(&mut self, increment: SectionsIncrement) -> Result<(), Unsolved> {
+        let common = &mut self.common;
+        let iterations = self
+            .carrier
+            .advance(&mut self.stations, &mut common.height, increment)?;
+        common.slider_x = increment.to;
+        common.increments += 1;
+        common.iterations += iterations;
+        Ok(())
     }
 
-    /// The contacts at the end of steps that wear as a single cycle, from a copy of the state; nothing where one has no solution.
-    fn replay(&mut self, steps: &[Step], plan: &ReplayPlan) -> Option<PositionContacts> {
-        let before = self.snapshot();
-        let last = steps.last()?;
-        let position = last.at?;
-        let direction = (last.slider_x - self.common.slider_x).signum();
-        let smoothing = plan.smoothing(last.slider_x, direction);
-        let lead_in = steps.iter().map(|step| (step.slider_x, 1));
-        let mut parts = lead_in.chain(smoothing);
-        let replayed = parts.all(|(to, count)| self.replay_to(to, count));
-        let contacts = replayed.then(|| self.contacts_at(position));
-        let (increments, iterations) = (self.common.increments, self.common.iterations);
+    fn update_slopes(&mut self) {
+        self.stations.iter_mut().for_each(Station::update_slopes);
+    }
+
+    fn save(&self) -> SavedLine {
+        let states = self.stations.iter().map(|station| station.state.clone());
+        SavedLine {
+            stations: states.collect(),
+            height: self.common.height.clone(),
+            slider_x: self.common.slider_x,
+        }
+    }
+
+    /// Replays count as increments of the cycle.
+    fn end_replay(&mut self, before: SavedLine) {
         self.restore(&before);
-        (self.common.increments, self.common.iterations) = (increments, iterations);
-        contacts
     }
 
-    /// Slides to a place in equal parts with the wear of a single cycle; returns whether all have a solution.
-    fn replay_to(&mut self, to: f64, parts: usize) -> bool {
-        Increment::parts(self.common.slider_x, to, parts).all(|part| self.retried(part).is_ok())
+    fn slider_x(&self) -> f64 {
+        self.common.slider_x
     }
 
-    /// Takes an increment, in halves if it fails as a whole.
-    fn retried(&mut self, increment: Increment) -> Result<(), FailedIncrement<Unsolved>> {
-        halve_and_retry(increment, SECTIONS_RETRY, |increment| {
-            let common = &mut self.common;
-            let iterations =
-                self.carrier
-                    .advance(&mut self.stations, &mut common.height, increment)?;
-            common.slider_x = increment.to;
-            common.increments += 1;
-            common.iterations += iterations;
-            Ok(())
-        })
+    fn contacts(&self) -> impl Iterator<Item = &ContactState> {
+        self.stations.iter().map(|station| &station.state.contact)
     }
 
-    /// The contacts of the present increment.
-    pub(super) fn contacts_at(&mut self, position: Position) -> PositionContacts {
+    fn half_widths(&self) -> Vec<f64> {
+        self.stations.iter().map(Station::half_width).collect()
+    }
+
+    fn tangential_force_n(&self) -> f64 {
+        let stations = self.stations.iter();
+        stations
+            .map(|station| station.place.weight_mm * station.force_along_motion())
+            .sum()
+    }
+
+    fn length_mm(&self) -> f64 {
+        let stations = self.stations.iter();
+        stations.map(|station| station.place.weight_mm).sum()
+    }
+
+    fn contacts_at(&mut self, position: Position) -> PositionContacts {
         let stations = self.stations.iter_mut();
         let forces =
             stations.map(|station| station.place.weight_mm * station.force_with_present_normals());
@@ -147,30 +106,21 @@ impl Line {
         }
     }
 
-    /// Force of the slider on the receptacle along the motion, N.
-    fn tangential_force_n(&self) -> f64 {
-        let stations = self.stations.iter();
-        stations
-            .map(|station| station.place.weight_mm * station.force_along_motion())
-            .sum()
+    fn worst_imbalance(&mut self) -> &mut f64 {
+        &mut self.common.imbalance
     }
 
-    /// Length of the line, mm.
-    pub(super) fn length_mm(&self) -> f64 {
-        let stations = self.stations.iter();
-        stations.map(|station| station.place.weight_mm).sum()
-    }
-
-    /// A copy of what increments change.
-    pub(super) fn snapshot(&self) -> SavedLine {
-        let states = self.stations.iter().map(|station| station.state.clone());
-        SavedLine {
-            stations: states.collect(),
-            height: self.common.height.clone(),
-            slider_x: self.common.slider_x,
+    fn end_cycle(&mut self, starts: Vec<WarmStarts>, half_widths_mm: Vec<Option<f64>>) {
+        let left = starts.into_iter().zip(half_widths_mm);
+        for (station, (starts, half_width)) in self.stations.iter_mut().zip(left) {
+            let state = &mut station.state;
+            state.warm_starts = starts;
+            state.mean_half_width = half_width.unwrap_or(state.mean_half_width);
         }
     }
+}
 
+impl Line {
     /// Goes back to a copy, with the jump controls and the work as they are.
     pub(super) fn restore(&mut self, before: &SavedLine) {
         for (station, state) in self.stations.iter_mut().zip(&before.stations) {

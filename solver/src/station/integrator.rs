@@ -12,11 +12,11 @@ use super::height::Height;
 use super::meshed::Section;
 use super::place::places;
 use super::scene::{StationScene, intervals_within};
-use super::section::{Increment, Station};
+use super::section::Station;
 use super::side_by_side::for_each;
 use super::state::{CommonLineState, LineState, StationState};
 use super::top::{Carrier, Unsolved};
-use crate::along_line::LineRecord;
+use crate::along_line::{LineRecord, Sections, SectionsIncrement, slide};
 use crate::contact::ContactState;
 use crate::cycle::retry::FailedIncrement;
 use crate::effects::EffectsPlan;
@@ -149,9 +149,9 @@ impl LineIntegrator {
     /// Applies the load without sliding: friction holds the sections together, which locks in shear between unlike bodies. The height under the mean line load is the first one of a rigid top.
     fn apply_load_once(&mut self) -> Result<(), StationError> {
         // At the neutral position.
-        let first_load = Increment {
+        let first_load = SectionsIncrement {
             lemke: true,
-            ..Increment::new(0.0, 0.0)
+            ..SectionsIncrement::new(0.0, 0.0)
         };
         let line = &mut self.line;
         if self.scene.top != Top::Even {
@@ -190,8 +190,8 @@ impl LineIntegrator {
         let steps = increments::steps(self.plane.motion, count);
         let quarter = increments::initial_quarter(&steps);
         loop {
-            let before = self.line.snapshot();
-            let slid = self.line.slide(quarter, 0.0, &ReplayPlan::default());
+            let before = self.line.save();
+            let slid = slide(&mut self.line, quarter, 0.0, &ReplayPlan::default());
             let Err(failed) = slid else {
                 return Ok(());
             };
@@ -239,11 +239,11 @@ impl LineIntegrator {
         let done = self.line.common.done;
         let remaining = until.max(done + 1) - done;
         let mut jump = self.next_jump(remaining);
-        let mut before = self.line.snapshot();
+        let mut before = self.line.save();
         loop {
             let plan = self.cycle_plan(Cycles { done, jump });
             let steps = increments::steps(self.plane.motion, plan.steps);
-            let slid = self.line.slide(&steps, real_cycles(jump), &plan.replays);
+            let slid = slide(&mut self.line, &steps, real_cycles(jump), &plan.replays);
             let failed = match slid {
                 Ok(record) => {
                     self.measure_jump(&before.stations, jump);
@@ -268,7 +268,7 @@ impl LineIntegrator {
             if let Some(station) = failed.source.station_to_widen() {
                 self.line.stations[station].widen();
                 self.follow_states()?;
-                before = self.line.snapshot();
+                before = self.line.save();
                 continue;
             }
             let mut shorter = None;

@@ -8,11 +8,12 @@ use super::meshed::Section;
 use super::place::Place;
 use super::state::StationState;
 use crate::ale::Spines;
+use crate::along_line::SectionsIncrement;
 use crate::condensation::Operators;
 use crate::contact::{
     self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces, WarmStart,
 };
-use crate::cycle::{IncrementNumber, Neutral, retry, wear_limit};
+use crate::cycle::{Neutral, wear_limit};
 use crate::model::{Interface, Tangential};
 use crate::sides::{Side, Sides};
 
@@ -36,9 +37,6 @@ pub(super) struct Attempt {
     /// Of the balance of forces, of complementarity and of the friction cone.
     residuals: [f64; 3],
 }
-
-/// One increment of all stations.
-pub(super) type Increment = retry::Increment<IncrementNumber>;
 
 /// A station.
 pub(super) struct Station {
@@ -103,7 +101,7 @@ impl Station {
     /// [`ContactError`] if it has no solution or wears too much.
     pub(super) fn solve(
         &mut self,
-        increment: Increment,
+        increment: SectionsIncrement,
         height: Option<f64>,
         raised: Option<f64>,
     ) -> Result<(), ContactError> {
@@ -144,7 +142,7 @@ impl Station {
 
     fn advance(
         &mut self,
-        increment: Increment,
+        increment: SectionsIncrement,
         height: Option<f64>,
         start: Option<WarmStart<'_>>,
         repeated: bool,

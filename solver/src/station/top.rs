@@ -8,8 +8,9 @@
 
 use super::coupling::Coupling;
 use super::height::{Height, HeightSolution};
-use super::section::{Increment, Station};
+use super::section::Station;
 use super::side_by_side::for_each;
+use crate::along_line::SectionsIncrement;
 use crate::contact::ContactError;
 use crate::scene::Top;
 
@@ -61,7 +62,7 @@ impl Carrier {
         &self,
         stations: &mut [Station],
         height: &mut Height,
-        increment: Increment,
+        increment: SectionsIncrement,
     ) -> Result<usize, Unsolved> {
         let iterations = match self.top {
             Top::Even => {
@@ -112,7 +113,7 @@ impl Carrier {
         &self,
         stations: &mut [Station],
         last: &Height,
-        increment: Increment,
+        increment: SectionsIncrement,
     ) -> Result<HeightSolution, Unsolved> {
         let mut v = last.predicted(increment.cycles);
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
