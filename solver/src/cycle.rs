@@ -9,6 +9,7 @@
 //! wears belongs to the wear law, not to the geometry of the scar: with a jump it would be `jump` times too high, and
 //! its slope would load the contact like a wall.
 
+mod attempts;
 mod checks;
 mod computed_cycle;
 mod cycle_record;

@@ -1,6 +1,7 @@
 //! When a run does what: increments of a cycle, physical cycles of a computed one, and where it ends. The run and the
 //! forecast follow the same schedule.
 
+pub(crate) mod attempts;
 pub(crate) mod equivalent_wear;
 pub mod increments;
 pub mod jump;

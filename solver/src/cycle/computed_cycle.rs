@@ -1,5 +1,6 @@
-//! A computed cycle: its jump, its plan, and its retry with a smaller jump where an increment fails.
+//! A computed cycle: its jump, and what that depends on.
 
+use super::attempts::CycleAttempts;
 use super::extrapolation::loss_of_load;
 use super::{CycleError, CycleRecord, CycleState, Integrator};
 use crate::change::Change;
@@ -8,8 +9,9 @@ use crate::law::elastic::contact_modulus;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::number::real_cycles;
+use crate::schedule::attempts::longest_accepted_jump;
 use crate::schedule::equivalent_wear::EquivalentWear;
-use crate::schedule::plan::{CyclePlan, Cycles, Followed};
+use crate::schedule::plan::Followed;
 use crate::schedule::stroke::{Movement, Stroke};
 use crate::sides::Side;
 
@@ -31,61 +33,29 @@ impl Integrator<'_> {
         until: u64,
         is_reported: bool,
     ) -> Result<CycleRecord, CycleError> {
-        let (motion, accuracy) = (self.scene.motion, &self.scene.accuracy);
         self.heat(state)?;
         let stroke = self.stroke(state);
-        let mut jump = state.jump.next(accuracy, stroke, until - state.cycle);
-        let before = state.clone();
-        loop {
-            // A run may end after this cycle.
-            let is_last = before.cycle + jump == until;
-            let detailed = (is_last && is_reported) || self.scene.has_stops();
-            let (computed, extrapolated) = if stroke.is_groove {
-                (1, extrapolated(jump - 1, detailed))
-            } else {
-                (jump, [0; 2])
-            };
-            self.update_surfaces(state, real_cycles(computed));
-            self.extrapolate(state, extrapolated[0], computed);
-            let cycles = Cycles {
-                done: state.cycle,
-                jump: computed,
-            };
-            let contact = self.followed(state);
-            let plan = CyclePlan::new(motion, accuracy, contact, stroke, cycles, detailed);
-            let error = match self.integrate(state, plan, computed, extrapolated[1], detailed) {
-                Ok(record) => {
-                    if self.measure_jump(state, &before) > 0.0 {
-                        self.correct_extrapolated_energy(state, &before, computed);
-                    }
-                    let shorter = self.rejected(state, stroke, jump);
-                    let Some(shorter) = shorter else {
-                        return Ok(record);
-                    };
-                    let work = state.work;
-                    *state = before.clone();
-                    (state.work, jump) = (work, shorter);
-                    state.jump.limit(shorter);
-                    continue;
-                }
-                Err(error) => error,
-            };
-            if error.needs_wider_zones() {
-                *state = before;
-                return Err(error);
-            }
-            let cut = state.jump.cut(jump);
-            *state = CycleState {
-                jump: state.jump.clone(),
-                ..before.clone()
-            };
-            jump = cut.ok_or(error)?;
-        }
+        let remaining = until - state.cycle;
+        let jump = state.jump.next(&self.scene.accuracy, stroke, remaining);
+        let mut attempts = CycleAttempts {
+            work: state.work,
+            integrator: self,
+            state,
+            stroke,
+            until,
+            is_reported,
+        };
+        longest_accepted_jump(&mut attempts, jump).map(|(_, record)| record)
     }
 
     /// A shorter jump where the estimated error of one far exceeds what it may be, as where it has passed an interface of a
     /// plating: the rate before does not foresee that behind it. Of surfaces whose rate depends on their depth.
-    fn rejected(&self, state: &CycleState, stroke: Stroke, jump: u64) -> Option<u64> {
+    pub(super) fn shorter_jump(
+        &self,
+        state: &CycleState,
+        stroke: Stroke,
+        jump: u64,
+    ) -> Option<u64> {
         let wear = self.wear;
         let by_depth = |wear: Option<SurfaceWear>| wear.is_some_and(SurfaceWear::depends_on_depth);
         let friction = |side| self.scene.friction.follows_wear_of(side);
@@ -97,7 +67,7 @@ impl Integrator<'_> {
     }
 
     /// Measures what the next jump depends on; returns the error by the change of friction.
-    fn measure_jump(&self, state: &mut CycleState, before: &CycleState) -> f64 {
+    pub(super) fn measure_jump(&self, state: &mut CycleState, before: &CycleState) -> f64 {
         let done = state.cycle - before.cycle;
         let load = |state: &CycleState| state.contact.load(&self.pair.interface);
         state.loss_of_load = loss_of_load(load(before), load(state), real_cycles(done));
@@ -159,27 +129,5 @@ impl Integrator<'_> {
             return stroke.of_uneven_wear();
         }
         stroke
-    }
-}
-
-/// Cycles that are extrapolated before a computed cycle, and between its strokes: half of them at either turning point,
-/// because what is extrapolated where a stroke ends and the next one begins has worn last there; all of them before a cycle whose
-/// contacts at both turning points may be reported.
-fn extrapolated(cycles: u64, detailed: bool) -> [u64; 2] {
-    let later = if detailed { 0 } else { cycles / 2 };
-    [cycles - later, later]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn both_turning_points_share_the_extrapolated_cycles_except_before_a_report() {
-        assert_eq!(
-            [0, 1, 6, 7].map(|cycles| extrapolated(cycles, false)),
-            [[0, 0], [1, 0], [3, 3], [4, 3]]
-        );
-        assert_eq!(extrapolated(7, true), [7, 0]);
     }
 }

@@ -7,7 +7,7 @@ use super::bodies::Bodies;
 use super::cycle::Contact;
 use super::error::ExtrudedError;
 use super::scene::ExtrudedScene;
-use super::state::{CommonPlaneState, ExtrudedState};
+use super::state::{CommonPlaneState, ExtrudedState, Planes};
 use crate::along_line::{LineRecord, Sections, slide};
 use crate::contact::ContactError;
 use crate::cycle::retry::FailedIncrement;
@@ -15,6 +15,7 @@ use crate::effects::EffectsPlan;
 use crate::model;
 use crate::number::real_cycles;
 use crate::scene::Scene;
+use crate::schedule::attempts::{Attempts, Remedy, in_wide_zones, longest_accepted_jump};
 use crate::schedule::increments;
 use crate::schedule::plan::Cycles;
 use crate::schedule::replay::ReplayPlan;
@@ -41,12 +42,15 @@ impl ExtrudedIntegrator {
         plan: &EffectsPlan,
     ) -> Result<(Self, ExtrudedState), ExtrudedError> {
         let mut run = Self::unloaded(scene, plan)?;
-        while let Err(source) = run.contact.apply_load() {
-            run.widen_or(FailedIncrement {
-                halvings: 0,
-                source,
-            })?;
-        }
+        in_wide_zones(&mut run, |run| {
+            let loaded = run.contact.apply_load();
+            loaded.map_err(|source| {
+                run.failure(FailedIncrement {
+                    halvings: 0,
+                    source,
+                })
+            })
+        })?;
         run.common.unworn_half_width = run.contact.planes.mean_half_width;
         let positions = vec![run.contact.contacts_at(Position::Neutral)];
         run.take_record(LineRecord {
@@ -96,15 +100,11 @@ impl ExtrudedIntegrator {
         let count = increments::count(motion, accuracy, half_width, false);
         let steps = increments::steps(self.scene.section.motion, count);
         let quarter = increments::initial_quarter(&steps);
-        loop {
-            let before = self.contact.planes.clone();
-            let slid = slide(&mut self.contact, quarter, 0.0, &ReplayPlan::default());
-            let Err(failed) = slid else {
-                return Ok(());
-            };
-            self.contact.planes = before;
-            self.widen_or(failed)?;
-        }
+        in_wide_zones(self, |run| {
+            slide(&mut run.contact, quarter, 0.0, &ReplayPlan::default())
+                .map(|_| ())
+                .map_err(|failed| run.failure(failed))
+        })
     }
 
     /// Computes the next cycle up to a number of them, with shorter jumps until it has a solution.
@@ -121,43 +121,15 @@ impl ExtrudedIntegrator {
             self.initial_quarter()?;
         }
         self.follow_wear()?;
-        let before = self.contact.planes.clone();
         let (paths, (increments, iterations)) = (self.paths(), self.solves());
         let done = self.common.done;
-        let mut jump = self.next_jump(until.max(done + 1) - done);
-        loop {
-            let plan = self.cycle_plan(Cycles { done, jump });
-            let steps = increments::steps(self.scene.section.motion, plan.steps);
-            let (contact, cycles) = (&mut self.contact, real_cycles(jump));
-            let failed = match slide(contact, &steps, cycles, &plan.replays) {
-                Ok(record) => {
-                    let control = self.common.jump.clone();
-                    self.measure_jump(&before, jump);
-                    if let Some(shorter) = self.rejected(jump) {
-                        // Back to the control before the jump as well.
-                        self.common.jump = control;
-                        self.common.jump.limit(shorter);
-                        self.contact.planes.clone_from(&before);
-                        jump = shorter;
-                        continue;
-                    }
-                    let most = &mut self.common.most_increments;
-                    *most = (*most).max(steps.len());
-                    self.take_record(record);
-                    break;
-                }
-                Err(failed) => failed,
-            };
-            self.contact.planes.clone_from(&before);
-            if failed.source.needs_wider_zones() {
-                self.widen_or(failed)?;
-                continue;
-            }
-            let shorter = self.common.jump.cut(jump);
-            jump = shorter.ok_or_else(|| self.failure(failed))?;
-        }
+        let first = self.next_jump(until.max(done + 1) - done);
+        let (jump, record) = longest_accepted_jump(self, first)?;
+        let taken = record.friction_loop.displacement_mm.len();
+        self.common.most_increments = self.common.most_increments.max(taken);
         self.common.done += jump;
         self.common.computed += 1;
+        self.take_record(record);
         self.common.last = self.report(jump, &paths, increments, iterations);
         *state = self.state();
         Ok(())
@@ -205,19 +177,6 @@ impl ExtrudedIntegrator {
         self.contact.bodies.follow(&self.common)
     }
 
-    /// Gives the bodies wider zones of fine elements.
-    ///
-    /// # Errors
-    /// The error, if wider zones are no help.
-    fn widen_or(&mut self, failed: FailedIncrement<ContactError>) -> Result<(), ExtrudedError> {
-        if !failed.source.needs_wider_zones() {
-            return Err(self.failure(failed));
-        }
-        self.common.widenings += 1;
-        self.common.relocations += 1;
-        self.contact.bodies.follow(&self.common)
-    }
-
     fn solves(&self) -> (usize, usize) {
         let effort = &self.contact.effort;
         (effort.increments, effort.iterations)
@@ -230,5 +189,52 @@ impl ExtrudedIntegrator {
             halvings,
             source,
         }
+    }
+}
+
+impl Attempts for ExtrudedIntegrator {
+    type Saved = Planes;
+    type Record = LineRecord;
+    type Error = ExtrudedError;
+
+    fn attempt(&mut self, jump: u64) -> Result<LineRecord, ExtrudedError> {
+        let done = self.common.done;
+        let plan = self.cycle_plan(Cycles { done, jump });
+        let steps = increments::steps(self.scene.section.motion, plan.steps);
+        slide(&mut self.contact, &steps, real_cycles(jump), &plan.replays)
+            .map_err(|failed| self.failure(failed))
+    }
+
+    fn rejected(&mut self, before: &Planes, _: &LineRecord, jump: u64) -> Option<u64> {
+        let control = self.common.jump.clone();
+        self.measure_jump(before, jump);
+        let shorter = self.shorter_jump(jump)?;
+        self.common.jump = control;
+        Some(shorter)
+    }
+
+    fn save(&self) -> Planes {
+        self.contact.planes.clone()
+    }
+
+    fn go_back(&mut self, before: &Planes) {
+        self.contact.planes.clone_from(before);
+    }
+
+    fn remedy(&mut self, error: &ExtrudedError) -> Result<Remedy, ExtrudedError> {
+        match error {
+            ExtrudedError::Contact { source, .. } if source.needs_wider_zones() => {
+                self.common.widenings += 1;
+                self.common.relocations += 1;
+                self.contact.bodies.follow(&self.common)?;
+                Ok(Remedy::WiderZones)
+            }
+            _ => Ok(Remedy::ShorterJump),
+        }
+    }
+
+    fn limit(&mut self, most: u64) -> u64 {
+        self.common.jump.limit(most);
+        most
     }
 }

@@ -28,7 +28,7 @@ pub(super) struct PlaneState {
 
 /// State that increments change.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Planes {
+pub(crate) struct Planes {
     pub(super) states: Vec<PlaneState>,
     /// Contact of each plane.
     pub(super) contacts: Vec<ContactState>,

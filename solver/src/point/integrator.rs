@@ -13,6 +13,7 @@ use super::window;
 use crate::closed_form::{PointScene, SlipRegime};
 use crate::law::surface::SurfaceWear;
 use crate::number::real_cycles;
+use crate::schedule::attempts::{Attempts, Remedy, longest_accepted_jump};
 use crate::sides::{Side, Sides};
 
 /// Largest step over indentation of a single cycle whose contact is reported without a step, where only one body wears; otherwise its
@@ -79,34 +80,26 @@ impl PointIntegrator {
         state: &mut PointState,
         until: u64,
     ) -> Result<PointCycle, PointError> {
-        let accuracy = self.scene.accuracy;
         window::coarsen(
             &mut state.sliding,
             self.scene.accuracy.cells_per_half_length,
         );
         let work = state.sliding.work;
-        loop {
-            let remaining = until.max(state.done + 1) - state.done;
-            let step = self.step(state);
-            let jump = state.control.next(&accuracy, state.done, remaining, step);
-            let before = state.sliding.clone();
-            let error = self
-                .pass_both(state, real_cycles(jump))
-                .map_err(|error| error.at(state.done))?;
-            if let Some(shorter) = rejected(&accuracy, state.done, jump, error) {
-                let work = state.sliding.work;
-                state.sliding = State { work, ..before };
-                state.control.limit(shorter);
-            } else {
-                state.control.update(jump, error);
-                state.done += jump;
-                state.error_sum += real_cycles(jump) * error;
-                state.computed += 1;
-                state.last = self.report(state, jump, error, work);
-                state.most_increments = state.most_increments.max(state.last.increments);
-                return Ok(state.last);
-            }
-        }
+        let remaining = until.max(state.done + 1) - state.done;
+        let mut attempts = PointAttempts {
+            integrator: self,
+            state,
+            remaining,
+        };
+        let first = attempts.next_jump();
+        let (jump, error) = longest_accepted_jump(&mut attempts, first)?;
+        state.control.update(jump, error);
+        state.done += jump;
+        state.error_sum += real_cycles(jump) * error;
+        state.computed += 1;
+        state.last = self.report(state, jump, error, work);
+        state.most_increments = state.most_increments.max(state.last.increments);
+        Ok(state.last)
     }
 
     /// Both passes of a computed cycle of a jump; returns the estimated error of its wear.
@@ -227,5 +220,65 @@ impl PointIntegrator {
             increments: sliding.work.0 - work.0,
             iterations: sliding.work.1 - work.1,
         }
+    }
+}
+
+/// Attempts to compute the next cycle of a state.
+struct PointAttempts<'a> {
+    integrator: &'a mut PointIntegrator,
+    state: &'a mut PointState,
+    /// Cycles that remain.
+    remaining: u64,
+}
+
+impl PointAttempts<'_> {
+    fn next_jump(&self) -> u64 {
+        let (state, accuracy) = (&self.state, &self.integrator.scene.accuracy);
+        let step = self.integrator.step(state);
+        state
+            .control
+            .next(accuracy, state.done, self.remaining, step)
+    }
+}
+
+impl Attempts for PointAttempts<'_> {
+    type Saved = State;
+    /// The estimated error.
+    type Record = f64;
+    type Error = PointError;
+
+    fn attempt(&mut self, jump: u64) -> Result<f64, PointError> {
+        let done = self.state.done;
+        self.integrator
+            .pass_both(self.state, real_cycles(jump))
+            .map_err(|error| error.at(done))
+    }
+
+    fn rejected(&mut self, _: &State, error: &f64, jump: u64) -> Option<u64> {
+        let accuracy = &self.integrator.scene.accuracy;
+        rejected(accuracy, self.state.done, jump, *error)
+    }
+
+    fn save(&self) -> State {
+        self.state.sliding.clone()
+    }
+
+    fn go_back(&mut self, before: &State) {
+        let work = self.state.sliding.work;
+        self.state.sliding = State {
+            work,
+            ..before.clone()
+        };
+    }
+
+    /// The window has been widened as far as it can be.
+    fn remedy(&mut self, _: &PointError) -> Result<Remedy, PointError> {
+        Ok(Remedy::Nothing)
+    }
+
+    /// In equal shares of what remains.
+    fn limit(&mut self, most: u64) -> u64 {
+        self.state.control.limit(most);
+        self.next_jump()
     }
 }

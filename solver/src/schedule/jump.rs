@@ -16,7 +16,7 @@ use crate::sides::{Side, Sides};
 
 /// A jump without a solution is divided by this; jumps may double again afterwards. Arbitrary: no result depends on it
 /// as long as one of the jumps has a solution.
-const CUT: u64 = 4;
+pub(crate) const CUT: u64 = 4;
 
 /// Estimated error of a jump over the largest that is allowed, from which on it is not accepted. Arbitrary: accepted jumps
 /// follow each other with errors of up to twice that.
@@ -84,12 +84,6 @@ impl JumpControl {
         } else {
             jump.min(self.most)
         }
-    }
-
-    /// A smaller jump in place of one that had no solution; `None` if it was a single cycle.
-    pub(crate) fn cut(&mut self, failed: u64) -> Option<u64> {
-        self.most = failed.div_ceil(CUT);
-        (failed > 1).then_some(self.most)
     }
 
     /// A smaller jump in place of a long one whose estimated error is too large; `None` if it is accepted, or was fixed by the

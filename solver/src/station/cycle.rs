@@ -18,7 +18,7 @@ pub(super) struct Line {
 }
 
 /// A copy of what increments change.
-pub(super) struct SavedLine {
+pub(crate) struct SavedLine {
     pub(super) stations: Vec<StationState>,
     height: Height,
     /// Displacement of the slider, mm.
@@ -138,16 +138,6 @@ impl Line {
 
 impl IncrementError for Unsolved {
     fn needs_wider_zones(&self) -> bool {
-        self.station_to_widen().is_some()
-    }
-}
-
-impl Unsolved {
-    /// The station whose contact has outgrown its zones, if that is why.
-    pub(super) fn station_to_widen(self) -> Option<usize> {
-        match self {
-            Self::Section { station, source } if source.needs_wider_zones() => Some(station),
-            _ => None,
-        }
+        matches!(self, Self::Section { source, .. } if source.needs_wider_zones())
     }
 }

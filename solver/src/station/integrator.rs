@@ -6,7 +6,7 @@ mod report;
 use std::sync::Arc;
 
 use super::coupling::Coupling;
-use super::cycle::Line;
+use super::cycle::{Line, SavedLine};
 use super::error::StationError;
 use super::height::Height;
 use super::meshed::Section;
@@ -23,6 +23,7 @@ use crate::effects::EffectsPlan;
 use crate::model;
 use crate::number::real_cycles;
 use crate::scene::{Scene, Top};
+use crate::schedule::attempts::{Attempts, Remedy, in_wide_zones, longest_accepted_jump};
 use crate::schedule::increments;
 use crate::schedule::plan::Cycles;
 use crate::schedule::replay::ReplayPlan;
@@ -119,31 +120,16 @@ impl LineIntegrator {
 
     /// Applies the load, with wider zones where the contact of a section needs them.
     fn apply_load(&mut self) -> Result<(), StationError> {
-        loop {
-            self.line.stations.iter_mut().for_each(Station::hold);
-            let loaded = self.apply_load_once();
-            self.line.stations.iter_mut().for_each(Station::release);
-            let Err(error) = loaded else {
-                return Ok(());
-            };
-            self.widen_or(error)?;
-        }
-    }
-
-    /// Widens the zones of the station that needs it, with all others as they are.
-    ///
-    /// # Errors
-    /// The error, if wider zones are no help.
-    fn widen_or(&mut self, error: StationError) -> Result<(), StationError> {
-        match error {
-            StationError::Contact {
-                station, source, ..
-            } if source.needs_wider_zones() => {
-                self.line.stations[station].widen();
-                self.follow_states()
-            }
-            other => Err(other),
-        }
+        in_wide_zones(self, |integrator| {
+            integrator.line.stations.iter_mut().for_each(Station::hold);
+            let loaded = integrator.apply_load_once();
+            integrator
+                .line
+                .stations
+                .iter_mut()
+                .for_each(Station::release);
+            loaded
+        })
     }
 
     /// Applies the load without sliding: friction holds the sections together, which locks in shear between unlike bodies. The height under the mean line load is the first one of a rigid top.
@@ -189,15 +175,11 @@ impl LineIntegrator {
         });
         let steps = increments::steps(self.plane.motion, count);
         let quarter = increments::initial_quarter(&steps);
-        loop {
-            let before = self.line.save();
-            let slid = slide(&mut self.line, quarter, 0.0, &ReplayPlan::default());
-            let Err(failed) = slid else {
-                return Ok(());
-            };
-            self.line.restore(&before);
-            self.widen_or(self.failure(failed))?;
-        }
+        in_wide_zones(self, |integrator| {
+            slide(&mut integrator.line, quarter, 0.0, &ReplayPlan::default())
+                .map(|_| ())
+                .map_err(|failed| integrator.failure(failed))
+        })
     }
 
     /// Computes the next cycle up to a number of them, with shorter jumps until it has a solution.
@@ -225,58 +207,18 @@ impl LineIntegrator {
         self.follow_wear()?;
         let paths = self.paths();
         let (increments, iterations) = (self.line.common.increments, self.line.common.iterations);
-        let jump = self.take_jump(until)?;
+        let done = self.line.common.done;
+        let first = self.next_jump(until.max(done + 1) - done);
+        let (jump, record) = longest_accepted_jump(self, first)?;
         let common = &mut self.line.common;
+        let taken = record.friction_loop.displacement_mm.len();
+        common.most_increments = common.most_increments.max(taken);
         common.done += jump;
         common.computed += 1;
+        self.take_record(record);
         self.line.common.last = self.report(jump, &paths, increments, iterations);
         *state = self.state();
         Ok(())
-    }
-
-    /// Computes a cycle of the longest jump that has a solution and an error that is accepted.
-    fn take_jump(&mut self, until: u64) -> Result<u64, StationError> {
-        let done = self.line.common.done;
-        let remaining = until.max(done + 1) - done;
-        let mut jump = self.next_jump(remaining);
-        let mut before = self.line.save();
-        loop {
-            let plan = self.cycle_plan(Cycles { done, jump });
-            let steps = increments::steps(self.plane.motion, plan.steps);
-            let slid = slide(&mut self.line, &steps, real_cycles(jump), &plan.replays);
-            let failed = match slid {
-                Ok(record) => {
-                    self.measure_jump(&before.stations, jump);
-                    let Some(shorter) = self.rejected(jump) else {
-                        let most = &mut self.line.common.most_increments;
-                        *most = (*most).max(steps.len());
-                        self.take_record(record);
-                        return Ok(jump);
-                    };
-                    // Back to the controls before the jump as well.
-                    for (station, state) in self.line.stations.iter_mut().zip(&before.stations) {
-                        station.state.jump = state.jump.clone();
-                        station.state.jump.limit(shorter);
-                    }
-                    self.line.restore(&before);
-                    jump = shorter;
-                    continue;
-                }
-                Err(failed) => failed,
-            };
-            self.line.restore(&before);
-            if let Some(station) = failed.source.station_to_widen() {
-                self.line.stations[station].widen();
-                self.follow_states()?;
-                before = self.line.save();
-                continue;
-            }
-            let mut shorter = None;
-            for station in &mut self.line.stations {
-                shorter = station.state.jump.cut(jump);
-            }
-            jump = shorter.ok_or_else(|| self.failure(failed))?;
-        }
     }
 
     /// Takes the record of a cycle, with the contacts of its neutral position.
@@ -348,5 +290,57 @@ impl LineIntegrator {
                 halvings,
             },
         }
+    }
+}
+
+impl Attempts for LineIntegrator {
+    type Saved = SavedLine;
+    type Record = LineRecord;
+    type Error = StationError;
+
+    fn attempt(&mut self, jump: u64) -> Result<LineRecord, StationError> {
+        let done = self.line.common.done;
+        let plan = self.cycle_plan(Cycles { done, jump });
+        let steps = increments::steps(self.plane.motion, plan.steps);
+        slide(&mut self.line, &steps, real_cycles(jump), &plan.replays)
+            .map_err(|failed| self.failure(failed))
+    }
+
+    /// That of the worst station whose rate depends on its depth.
+    fn rejected(&mut self, before: &SavedLine, _: &LineRecord, jump: u64) -> Option<u64> {
+        self.measure_jump(&before.stations, jump);
+        let shorter = self.shorter_jump(jump)?;
+        for (station, state) in self.line.stations.iter_mut().zip(&before.stations) {
+            station.state.jump = state.jump.clone();
+        }
+        Some(shorter)
+    }
+
+    fn save(&self) -> SavedLine {
+        self.line.save()
+    }
+
+    fn go_back(&mut self, before: &SavedLine) {
+        self.line.restore(before);
+    }
+
+    fn remedy(&mut self, error: &StationError) -> Result<Remedy, StationError> {
+        match *error {
+            StationError::Contact {
+                station, source, ..
+            } if source.needs_wider_zones() => {
+                self.line.stations[station].widen();
+                self.follow_states()?;
+                Ok(Remedy::WiderZones)
+            }
+            _ => Ok(Remedy::ShorterJump),
+        }
+    }
+
+    fn limit(&mut self, most: u64) -> u64 {
+        for station in &mut self.line.stations {
+            station.state.jump.limit(most);
+        }
+        most
     }
 }

@@ -25,7 +25,7 @@ impl ExtrudedIntegrator {
     }
 
     /// A shorter jump where a rate depends on the depth and the estimated error far exceeds what it may be.
-    pub(super) fn rejected(&self, jump: u64) -> Option<u64> {
+    pub(super) fn shorter_jump(&self, jump: u64) -> Option<u64> {
         let wear = self.contact.interface.wear;
         let by_depth = |side| wear.of(side).is_some_and(SurfaceWear::depends_on_depth);
         if !Side::BOTH.into_iter().any(by_depth) {

@@ -61,7 +61,7 @@ impl LineIntegrator {
     }
 
     /// A shorter jump where the estimated error of a station whose rate depends on its depth far exceeds what it may be.
-    pub(super) fn rejected(&self, jump: u64) -> Option<u64> {
+    pub(super) fn shorter_jump(&self, jump: u64) -> Option<u64> {
         let stations = self.line.stations.iter().enumerate();
         let shorter = stations.filter(|(_, station)| station.wears_by_depth());
         let shorter = shorter.filter_map(|(j, station)| {
