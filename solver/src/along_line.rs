@@ -1,12 +1,16 @@
 //! Sections along a line: where they lie, and what runs report of them. Of a line of stations they are its stations, of extruded bodies their
 //! node planes.
 
+mod checks;
+mod error;
 mod record;
 mod slide;
 
 use serde::{Deserialize, Serialize};
 
 use crate::sides::{Side, Sides};
+pub(crate) use checks::{check_section, check_slip};
+pub use error::SectionsError;
 pub(crate) use record::{LineRecord, PositionContacts};
 pub(crate) use slide::{Sections, SectionsIncrement, slide};
 

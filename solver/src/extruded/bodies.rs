@@ -4,6 +4,7 @@ use super::error::ExtrudedError;
 use super::scene::ExtrudedScene;
 use super::state::CommonPlaneState;
 use crate::ale;
+use crate::along_line::SectionsError;
 use crate::condensation::{ExtrudedOperators, condense_extruded};
 use crate::mesh::{NodePlanes, PrismMesh};
 use crate::model::{BodyModel, Model};
@@ -34,13 +35,8 @@ impl Bodies {
         let models = vec![section.clone(); planes.count()];
         check(scene, &models, &planes)?;
         Ok(Self {
-            operators: condense_extruded(
-                &models,
-                &planes,
-                scene.ends,
-                None,
-                scene.section.threads,
-            )?,
+            operators: condense_extruded(&models, &planes, scene.ends, None, scene.section.threads)
+                .map_err(SectionsError::from)?,
             shares: planes.shares(),
             scene: scene.clone(),
             unworn: section,
@@ -94,14 +90,15 @@ impl Bodies {
                 None => self.unworn.clone(),
                 Some(depth) => ale::relocate(&self.unworn, depth)?,
             };
-            model.with_zones_widened(widened)
+            Ok(model.with_zones_widened(widened)?)
         };
         let models = (0..self.planes.count()).map(model_of);
-        let models: Vec<Model> = models.collect::<Result<_, _>>()?;
+        let models: Vec<Model> = models.collect::<Result<_, SectionsError>>()?;
         check(&self.scene, &models, &self.planes)?;
         let earlier = (&self.models[..], std::mem::take(&mut self.operators.zones));
         let (ends, threads) = (self.scene.ends, self.scene.section.threads);
-        self.operators = condense_extruded(&models, &self.planes, ends, Some(earlier), threads)?;
+        self.operators = condense_extruded(&models, &self.planes, ends, Some(earlier), threads)
+            .map_err(SectionsError::from)?;
         self.models = models;
         self.built.clone_from(&common.built);
         self.widenings = common.widenings;
@@ -126,7 +123,9 @@ fn check(
             let sections = models
                 .iter()
                 .map(|model| &model.bodies.of(side).zones[number].mesh);
-            PrismMesh::new(sections.collect(), planes).check()?;
+            PrismMesh::new(sections.collect(), planes)
+                .check()
+                .map_err(SectionsError::from)?;
         }
     }
     Ok(())

@@ -8,7 +8,7 @@ use super::cycle::Contact;
 use super::error::ExtrudedError;
 use super::scene::ExtrudedScene;
 use super::state::{CommonPlaneState, ExtrudedState, Planes};
-use crate::along_line::{LineRecord, Sections, slide};
+use crate::along_line::{LineRecord, Sections, SectionsError, slide};
 use crate::contact::ContactError;
 use crate::cycle::retry::FailedIncrement;
 use crate::effects::EffectsPlan;
@@ -80,7 +80,7 @@ impl ExtrudedIntegrator {
     fn unloaded(scene: &ExtrudedScene, plan: &EffectsPlan) -> Result<Self, ExtrudedError> {
         scene.check()?;
         let plane = scene.plane();
-        let built = model::build(&plane, plan)?;
+        let built = model::build(&plane, plan).map_err(SectionsError::from)?;
         if plane.cycles > 0 {
             scene.check_slip()?;
         }
@@ -184,11 +184,12 @@ impl ExtrudedIntegrator {
 
     fn failure(&self, failed: FailedIncrement<ContactError>) -> ExtrudedError {
         let FailedIncrement { halvings, source } = failed;
-        ExtrudedError::Contact {
+        ExtrudedError::Sections(SectionsError::Contact {
             cycle: self.common.done,
+            section: None,
             halvings,
             source,
-        }
+        })
     }
 }
 
@@ -222,15 +223,17 @@ impl Attempts for ExtrudedIntegrator {
     }
 
     fn remedy(&mut self, error: &ExtrudedError) -> Result<Remedy, ExtrudedError> {
-        match error {
-            ExtrudedError::Contact { source, .. } if source.needs_wider_zones() => {
-                self.common.widenings += 1;
-                self.common.relocations += 1;
-                self.contact.bodies.follow(&self.common)?;
-                Ok(Remedy::WiderZones)
-            }
-            _ => Ok(Remedy::ShorterJump),
-        }
+        let ExtrudedError::Sections(SectionsError::Contact {
+            source: ContactError::WiderThanZone { .. },
+            ..
+        }) = error
+        else {
+            return Ok(Remedy::ShorterJump);
+        };
+        self.common.widenings += 1;
+        self.common.relocations += 1;
+        self.contact.bodies.follow(&self.common)?;
+        Ok(Remedy::WiderZones)
     }
 
     fn limit(&mut self, most: u64) -> u64 {

@@ -1,11 +1,11 @@
 //! Input of a run of extruded bodies.
 
 use super::error::ExtrudedError;
-use crate::closed_form::unworn_contact;
+use crate::along_line::{SectionsError, check_section, check_slip};
 use crate::mesh::NodePlanes;
 use crate::number::{positive, real};
 use crate::scene::Effect;
-use crate::scene::{Dimension, Ends, Friction, Motion, Scene};
+use crate::scene::{Dimension, Ends, Motion, Scene};
 use crate::sides::{Side, Sides};
 
 /// A plane section drawn out over a width.
@@ -85,21 +85,13 @@ impl ExtrudedScene {
         }
     }
 
-    /// Amplitude of the motion, mm; none of one that turns inside or is continuous.
-    pub(super) fn amplitude_mm(&self) -> Option<f64> {
-        match self.section.motion {
-            Motion::Reciprocating { amplitude_mm, .. } => Some(amplitude_mm),
-            Motion::Periodic { .. } | Motion::Continuous { .. } => None,
-        }
-    }
-
     /// Checks the scene, and that all of its contact slips in each stroke.
     ///
     /// # Errors
     /// A value outside of its range, a law or a motion that extruded bodies do not have, a contact that may stick.
     pub fn check_all(&self) -> Result<(), ExtrudedError> {
         self.check()?;
-        self.check_slip()
+        Ok(self.check_slip()?)
     }
 
     /// Checks that the operators are not larger than the engine takes, for nodes of the largest zone of each body.
@@ -121,20 +113,11 @@ impl ExtrudedScene {
     }
 
     /// Checks that all of the contact slips in each stroke.
-    pub(super) fn check_slip(&self) -> Result<(), ExtrudedError> {
-        let plane = self.plane();
-        let half_width = unworn_contact::hertz_half_width(&plane);
-        let free = Scene {
+    pub(super) fn check_slip(&self) -> Result<(), SectionsError> {
+        check_slip(&Scene {
             effects: self.section.effects.clone(),
-            ..plane
-        };
-        if unworn_contact::sticks(&free, half_width) {
-            return Err(ExtrudedError::Sticks {
-                amplitude_mm: free.motion.amplitude_mm().abs(),
-                least_mm: 2.0 * unworn_contact::gross_slip(&free, half_width),
-            });
-        }
-        Ok(())
+            ..self.plane()
+        })
     }
 
     /// Checks the scene.
@@ -142,17 +125,10 @@ impl ExtrudedScene {
     /// # Errors
     /// A value outside of its range, a law or a motion that extruded bodies do not have.
     pub(super) fn check(&self) -> Result<(), ExtrudedError> {
-        let amplitude = self.amplitude_mm().ok_or(ExtrudedError::Motion)?;
-        if !matches!(
-            self.section.friction,
-            Friction::Coulomb { .. } | Friction::Frictionless
-        ) {
-            return Err(ExtrudedError::FrictionLaw);
-        }
+        check_section(&self.section)?;
         positive(self.width_mm, ExtrudedError::WidthRange)?;
         positive(self.growth, ExtrudedError::GrowthRange)?;
         positive(self.section.load_n_per_mm, ExtrudedError::LoadRange)?;
-        positive(amplitude.abs(), ExtrudedError::AmplitudeRange)?;
         let is_counted =
             u32::try_from(self.layers).is_ok_and(|layers| (2..=MOST_LAYERS).contains(&layers));
         if !is_counted || !self.layers.is_multiple_of(2) {
@@ -170,19 +146,6 @@ impl ExtrudedScene {
                 ratio,
                 limit: MOST_UNLIKE,
             });
-        }
-        let half_block = 0.5 * self.section.receptacle.shape.length_mm;
-        if amplitude.abs() >= half_block {
-            return Err(ExtrudedError::LeavesReceptacle {
-                amplitude_mm: amplitude.abs(),
-                half_block_mm: half_block,
-            });
-        }
-        let wear = self.section.surface_wear();
-        for side in Side::BOTH {
-            if wear.of(side).is_some_and(|wear| wear.dose_rate().is_none()) {
-                return Err(ExtrudedError::Law { side: side.name() });
-            }
         }
         Ok(())
     }

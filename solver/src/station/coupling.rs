@@ -11,9 +11,9 @@
 
 use std::f64::consts::PI;
 
-use super::error::StationError;
 use super::place::Place;
 use super::scene::StationScene;
+use crate::along_line::SectionsError;
 use crate::closed_form::unworn_contact;
 use crate::condensation::harmonic::{FarFace, harmonic_compliances};
 use crate::effects::EffectsPlan;
@@ -51,7 +51,7 @@ impl Coupling {
         plane: &Scene,
         plan: &EffectsPlan,
         places: &[Place],
-    ) -> Result<Option<Self>, StationError> {
+    ) -> Result<Option<Self>, SectionsError> {
         if !scene.is_coupled() || places.len() < 3 {
             return Ok(None);
         }
@@ -129,7 +129,7 @@ fn lifts(
     line_load: f64,
     length: f64,
     most: usize,
-) -> Result<Vec<f64>, StationError> {
+) -> Result<Vec<f64>, SectionsError> {
     let mut computed = vec![0];
     while let Some(last) = computed.last().copied().filter(|last| *last < most) {
         computed.push(if last < SINGLE_WAVES {

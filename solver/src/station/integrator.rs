@@ -16,8 +16,8 @@ use super::section::Station;
 use super::side_by_side::for_each;
 use super::state::{CommonLineState, LineState, StationState};
 use super::top::{Carrier, Unsolved};
-use crate::along_line::{LineRecord, Sections, SectionsIncrement, slide};
-use crate::contact::ContactState;
+use crate::along_line::{LineRecord, Sections, SectionsError, SectionsIncrement, slide};
+use crate::contact::{ContactError, ContactState};
 use crate::cycle::retry::FailedIncrement;
 use crate::effects::EffectsPlan;
 use crate::model;
@@ -83,10 +83,9 @@ impl LineIntegrator {
 
     /// The unworn sections without load.
     fn unloaded(scene: &StationScene, plan: &EffectsPlan) -> Result<Self, StationError> {
-        scene.check()?;
+        let amplitude_mm = scene.check()?;
         let plane = scene.plane();
-        let amplitude_mm = scene.amplitude_mm().ok_or(StationError::Motion)?;
-        let built = model::build(&plane, plan)?;
+        let built = model::build(&plane, plan).map_err(SectionsError::from)?;
         scene.check_slip(&plane)?;
         let (spring, slave) = (built.interface.spring, built.interface.slave);
         let unworn = Arc::new(Section::unworn(built)?);
@@ -144,9 +143,9 @@ impl LineIntegrator {
             let first = &mut line.stations[0];
             first
                 .solve(first_load, None, None)
-                .map_err(|source| StationError::Contact {
+                .map_err(|source| SectionsError::Contact {
                     cycle: 0,
-                    station: 0,
+                    section: Some(0),
                     halvings: 0,
                     source,
                 })?;
@@ -230,7 +229,7 @@ impl LineIntegrator {
     }
 
     /// Takes the state that the next cycle begins with.
-    fn enter(&mut self, state: &LineState) -> Result<(), StationError> {
+    fn enter(&mut self, state: &LineState) -> Result<(), SectionsError> {
         for (station, state) in self.line.stations.iter_mut().zip(&state.stations) {
             station.state = state.clone();
         }
@@ -248,20 +247,15 @@ impl LineIntegrator {
     }
 
     /// Condenses sections again that have drifted from the geometry of their operators.
-    fn follow_wear(&mut self) -> Result<(), StationError> {
+    fn follow_wear(&mut self) -> Result<(), SectionsError> {
         for station in &mut self.line.stations {
             self.line.common.relocations += u64::from(station.drifts(&self.plane.accuracy));
         }
         self.build()
     }
 
-    fn follow_states(&mut self) -> Result<(), StationError> {
-        self.line.common.relocations += 1;
-        self.build()
-    }
-
     /// Builds the sections of the present states.
-    fn build(&mut self) -> Result<(), StationError> {
+    fn build(&mut self) -> Result<(), SectionsError> {
         let unworn = &self.unworn;
         for_each(&mut self.line.stations, |_, station| {
             station.follow_state(unworn)
@@ -273,12 +267,13 @@ impl LineIntegrator {
         let FailedIncrement { halvings, source } = failed;
         let cycle = self.line.common.done;
         match source {
-            Unsolved::Section { station, source } => StationError::Contact {
+            Unsolved::Section { station, source } => SectionsError::Contact {
                 cycle,
-                station,
+                section: Some(station),
                 halvings,
                 source,
-            },
+            }
+            .into(),
             Unsolved::Height {
                 found_n,
                 iterations,
@@ -325,16 +320,18 @@ impl Attempts for LineIntegrator {
     }
 
     fn remedy(&mut self, error: &StationError) -> Result<Remedy, StationError> {
-        match *error {
-            StationError::Contact {
-                station, source, ..
-            } if source.needs_wider_zones() => {
-                self.line.stations[station].widen();
-                self.follow_states()?;
-                Ok(Remedy::WiderZones)
-            }
-            _ => Ok(Remedy::ShorterJump),
-        }
+        let StationError::Sections(SectionsError::Contact {
+            section: Some(station),
+            source: ContactError::WiderThanZone { .. },
+            ..
+        }) = *error
+        else {
+            return Ok(Remedy::ShorterJump);
+        };
+        self.line.stations[station].widen();
+        self.line.common.relocations += 1;
+        self.build()?;
+        Ok(Remedy::WiderZones)
     }
 
     fn limit(&mut self, most: u64) -> u64 {

@@ -1,8 +1,8 @@
 //! A meshed section with its operators, which stations share until they are worn unlike.
 
-use super::error::StationError;
 use super::state::StationState;
 use crate::ale;
+use crate::along_line::SectionsError;
 use crate::condensation::{self, Condensed};
 use crate::model::Model;
 use crate::sides::Sides;
@@ -20,8 +20,8 @@ impl Section {
     /// The unworn section.
     ///
     /// # Errors
-    /// [`StationError`] if it cannot be condensed.
-    pub(super) fn unworn(model: Model) -> Result<Self, StationError> {
+    /// [`SectionsError`] if it cannot be condensed.
+    pub(super) fn unworn(model: Model) -> Result<Self, SectionsError> {
         Ok(Self {
             condensed: condensation::condense(&model, 1)?,
             model,
@@ -31,7 +31,7 @@ impl Section {
     }
 
     /// The section at the geometry that a state was computed with, from the unworn one.
-    pub(super) fn of(unworn: &Model, state: &StationState) -> Result<Self, StationError> {
+    pub(super) fn of(unworn: &Model, state: &StationState) -> Result<Self, SectionsError> {
         let model = match &state.built {
             None => unworn.clone(),
             Some(depth) => ale::relocate(unworn, depth)?,

@@ -3,13 +3,12 @@
 use super::error::StationError;
 use super::place::places;
 use super::spacing;
+use crate::along_line::{SectionsError, check_section, check_slip};
 use crate::closed_form::line_contact::{Touch, touch};
-use crate::closed_form::unworn_contact;
 use crate::law::elastic::contact_modulus;
 use crate::number::{nearest, positive, real};
 use crate::scene::Effect;
-use crate::scene::{Accuracy, Dimension, Drive, Friction, Line, LineShape, Motion, Scene, Top};
-use crate::sides::Side;
+use crate::scene::{Accuracy, Dimension, Drive, Line, LineShape, Scene, Top};
 
 /// A contact along a line.
 #[derive(Debug, Clone, PartialEq)]
@@ -157,14 +156,6 @@ impl StationScene {
         }
     }
 
-    /// Amplitude of the motion, mm; none of one that turns inside or is continuous.
-    pub(super) fn amplitude_mm(&self) -> Option<f64> {
-        match self.section.motion {
-            Motion::Reciprocating { amplitude_mm, .. } => Some(amplitude_mm),
-            Motion::Periodic { .. } | Motion::Continuous { .. } => None,
-        }
-    }
-
     /// Checks the scene, and that all of its contact slips in each stroke.
     ///
     /// # Errors
@@ -178,21 +169,15 @@ impl StationScene {
                 least,
             });
         }
-        self.check_slip(&self.plane())
+        Ok(self.check_slip(&self.plane())?)
     }
 
-    /// Checks the scene.
+    /// Checks the scene; returns the amplitude of its motion, mm.
     ///
     /// # Errors
     /// A value outside of its range, a law or a motion that stations do not have.
-    pub(super) fn check(&self) -> Result<(), StationError> {
-        let amplitude = self.amplitude_mm().ok_or(StationError::Motion)?;
-        if !matches!(
-            self.section.friction,
-            Friction::Coulomb { .. } | Friction::Frictionless
-        ) {
-            return Err(StationError::FrictionLaw);
-        }
+    pub(super) fn check(&self) -> Result<f64, StationError> {
+        let amplitude = check_section(&self.section)?;
         let size = match self.line {
             LineShape::Ring { radius_mm, .. } => radius_mm,
             LineShape::Straight {
@@ -203,7 +188,6 @@ impl StationScene {
         };
         positive(self.force_n, StationError::ForceRange)?;
         positive(size, StationError::LengthRange)?;
-        positive(amplitude.abs(), StationError::AmplitudeRange)?;
         if let LineShape::Ring { radius_mm, .. } = self.line
             && amplitude.abs() >= radius_mm
         {
@@ -213,12 +197,6 @@ impl StationScene {
             });
         }
         let half_block = 0.5 * self.section.receptacle.shape.length_mm;
-        if amplitude.abs() >= half_block {
-            return Err(StationError::LeavesReceptacle {
-                amplitude_mm: amplitude.abs(),
-                half_block_mm: half_block,
-            });
-        }
         // Waves around a ring belong to one ring of matter: the section below its wire, turned around its axis.
         if let LineShape::Ring { radius_mm, .. } = self.line
             && self.is_coupled()
@@ -237,34 +215,20 @@ impl StationScene {
         if self.top != Top::Even && self.section.drive != Drive::Handle {
             return Err(StationError::Drive);
         }
-        let wear = self.section.surface_wear();
-        for side in Side::BOTH {
-            if wear.of(side).is_some_and(|wear| wear.dose_rate().is_none()) {
-                return Err(StationError::Law { side: side.name() });
-            }
-        }
-        Ok(())
+        Ok(amplitude)
     }
 
     /// Checks that all of the contact slips in each stroke.
-    pub(super) fn check_slip(&self, plane: &Scene) -> Result<(), StationError> {
+    pub(super) fn check_slip(&self, plane: &Scene) -> Result<(), SectionsError> {
         // The most loaded section sticks longest.
         let line_load = match self.top {
             Top::Even => self.mean_line_load(),
             Top::Rigid | Top::Pressure => self.touch().line_load,
         };
-        let free = Scene {
+        check_slip(&Scene {
             effects: self.section.effects.clone(),
             load_n_per_mm: line_load,
             ..plane.clone()
-        };
-        let half_width = unworn_contact::hertz_half_width(&free);
-        if unworn_contact::sticks(&free, half_width) {
-            return Err(StationError::Sticks {
-                amplitude_mm: plane.motion.amplitude_mm().abs(),
-                least_mm: 2.0 * unworn_contact::gross_slip(&free, half_width),
-            });
-        }
-        Ok(())
+        })
     }
 }

@@ -1,6 +1,7 @@
 //! Limiting cases: wide and thin bodies, scaled and swapped ones, scenes that are refused.
 
 use super::{TWO, button, difference, loaded, loaded_plane, over_plane, solved};
+use solver::along_line::SectionsError;
 use solver::extruded::{ExtrudedError, ExtrudedScene, MOST_LAYERS, run};
 use solver::scene::Effect;
 use solver::scene::{Ends, Friction, Motion, WearLaw};
@@ -162,7 +163,11 @@ fn scenes_that_extruded_bodies_do_not_describe_are_refused() {
             .clone()
             .with(Effect::StickMemory, true);
     });
-    assert!(matches!(sticks, ExtrudedError::Sticks { .. }), "{sticks}");
+    let is_sticking = matches!(
+        sticks,
+        ExtrudedError::Sections(SectionsError::Sticks { .. })
+    );
+    assert!(is_sticking, "{sticks}");
     let large = refused(&|scene| {
         scene.section.friction = Friction::Frictionless;
         scene.layers = 40;

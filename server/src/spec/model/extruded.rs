@@ -6,6 +6,7 @@ use solver::scene::{self, Conduction, Extruded, Scene};
 use solver::sides::Sides;
 
 use super::length::length;
+use super::section_only;
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::{Sourced, assumed, source};
 
@@ -110,15 +111,10 @@ fn check(scene: &Scene, diagnostics: &mut Diagnostics) {
     let Err(error) = bodies.check_all() else {
         return;
     };
-    let pointer = match error {
-        ExtrudedError::Sticks { .. }
-        | ExtrudedError::LeavesReceptacle { .. }
-        | ExtrudedError::Motion => "/motion",
+    let pointer = match &error {
+        ExtrudedError::Sections(error) => section_only::pointer(error),
         // Others are ranges of fields of their own.
-        ExtrudedError::AmplitudeRange(_) => "/motion/amplitude_mm",
         ExtrudedError::UnlikeLayers { .. } => "/model/layer_growth",
-        ExtrudedError::FrictionLaw => "/interface/friction",
-        ExtrudedError::Law { .. } => "/interface/wear",
         _ => "/model",
     };
     diagnostics.fault(pointer, error.to_string());

@@ -9,6 +9,7 @@ use solver::scene::{self, Conduction, LineShape, Scene};
 use solver::station::{StationError, StationScene};
 
 use super::length::length;
+use super::section_only;
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::sourced::assumed;
 use crate::spec::system::{LENGTH_MM, Shapes};
@@ -251,18 +252,13 @@ impl Line {
         let Err(error) = line.check_all() else {
             return;
         };
-        let pointer = match error {
-            StationError::Sticks { .. }
-            | StationError::Amplitude { .. }
-            | StationError::LeavesReceptacle { .. }
-            | StationError::Motion => "/motion",
+        let pointer = match &error {
+            StationError::Sections(error) => section_only::pointer(error),
+            StationError::Amplitude { .. } => "/motion",
             // Others are ranges of fields of their own.
-            StationError::AmplitudeRange(_) => "/motion/amplitude_mm",
             StationError::BeyondAxis { .. } => "/model/outer_diameter_mm",
             StationError::Spacing { .. } => "/accuracy/overrides/stations",
             StationError::Drive => "/motion/drive",
-            StationError::FrictionLaw => "/interface/friction",
-            StationError::Law { .. } => "/interface/wear",
             _ => "/model",
         };
         diagnostics.fault(pointer, errors::of_line(&error));

@@ -1,6 +1,7 @@
 //! Fields and laws that only a section has: other contacts refuse them.
 
 use api::spec::Spec;
+use solver::along_line::SectionsError;
 use solver::scene::{Friction, Motion, Scene};
 use solver::sides::Side;
 
@@ -47,5 +48,20 @@ pub(super) fn check_laws(scene: &Scene, contact: &str, diagnostics: &mut Diagnos
             "a {contact} has one coefficient of friction; one that changes is simulated in `plane_strain` alone"
         );
         diagnostics.fault("/interface/friction", detail);
+    }
+}
+
+/// The field that an error of sections along a line is about.
+pub(super) fn pointer(error: &SectionsError) -> &'static str {
+    match error {
+        SectionsError::Sticks { .. }
+        | SectionsError::LeavesReceptacle { .. }
+        | SectionsError::Motion => "/motion",
+        SectionsError::AmplitudeRange(_) => "/motion/amplitude_mm",
+        SectionsError::FrictionLaw => "/interface/friction",
+        SectionsError::Law { .. } => "/interface/wear",
+        SectionsError::Contact { .. } | SectionsError::Mesh(_) | SectionsError::Operator(_) => {
+            "/model"
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::sections::{Sections, State};
 use crate::SolveError;
-use crate::along_line::{Ending, StationCycle, StationProfile};
+use crate::along_line::{Ending, SectionsError, StationCycle, StationProfile};
 use crate::checkpoint::{CheckpointMismatch, ExtrudedRun, Resumable};
 use crate::contact::{ContactState, Work};
 use crate::cycle::FrictionLoop;
@@ -122,5 +122,5 @@ impl State for ExtrudedState {
 }
 
 fn bodies_of(scene: &Scene) -> Result<ExtrudedScene, ExtrudedError> {
-    ExtrudedScene::of(scene).ok_or(ExtrudedError::Motion)
+    ExtrudedScene::of(scene).ok_or(ExtrudedError::Sections(SectionsError::Motion))
 }

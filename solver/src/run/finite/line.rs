@@ -2,7 +2,7 @@
 
 use super::sections::{Sections, State};
 use crate::SolveError;
-use crate::along_line::{Ending, StationCycle, StationProfile};
+use crate::along_line::{Ending, SectionsError, StationCycle, StationProfile};
 use crate::checkpoint::{CheckpointMismatch, LineRun, Resumable};
 use crate::contact::{ContactState, Work};
 use crate::cycle::FrictionLoop;
@@ -123,5 +123,5 @@ impl State for LineState {
 }
 
 fn line_of(scene: &Scene) -> Result<StationScene, StationError> {
-    StationScene::of(scene).ok_or(StationError::Motion)
+    StationScene::of(scene).ok_or(StationError::Sections(SectionsError::Motion))
 }

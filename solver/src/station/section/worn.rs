@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Station;
 use crate::ale;
-use crate::along_line;
+use crate::along_line::{self, SectionsError};
 use crate::change::Change;
 use crate::law::surface::{self, SurfaceWear};
 use crate::law::wear::LocalState;
@@ -12,7 +12,6 @@ use crate::model::ZONE_WIDENING;
 use crate::scene::Accuracy;
 use crate::schedule::equivalent_wear::EquivalentWear;
 use crate::sides::{Side, Sides};
-use crate::station::error::StationError;
 use crate::station::meshed::Section;
 
 impl Station {
@@ -105,11 +104,11 @@ impl Station {
     /// Meshes and condenses the section where it is not at the geometry of the state.
     ///
     /// # Errors
-    /// [`StationError`] if it cannot be meshed or condensed.
+    /// [`SectionsError`] if it cannot be meshed or condensed.
     pub(in crate::station) fn follow_state(
         &mut self,
         unworn: &Arc<Section>,
-    ) -> Result<(), StationError> {
+    ) -> Result<(), SectionsError> {
         if unworn.is_of(&self.state) {
             self.section = Arc::clone(unworn);
         } else if !self.section.is_of(&self.state) {

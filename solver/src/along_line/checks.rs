@@ -1,0 +1,54 @@
+//! Checks of what all sections along a line have in common: motion, friction, wear, and that all of the contact slips.
+
+use super::error::SectionsError;
+use crate::closed_form::unworn_contact;
+use crate::number::positive;
+use crate::scene::{Friction, Motion, Scene};
+use crate::sides::Side;
+
+/// Checks a section; returns the amplitude of its motion, mm.
+///
+/// # Errors
+/// A value outside of its range, a law or a motion that sections along a line do not have.
+pub(crate) fn check_section(section: &Scene) -> Result<f64, SectionsError> {
+    let Motion::Reciprocating { amplitude_mm, .. } = section.motion else {
+        return Err(SectionsError::Motion);
+    };
+    if !matches!(
+        section.friction,
+        Friction::Coulomb { .. } | Friction::Frictionless
+    ) {
+        return Err(SectionsError::FrictionLaw);
+    }
+    let amplitude = amplitude_mm.abs();
+    positive(amplitude, SectionsError::AmplitudeRange)?;
+    let half_block_mm = 0.5 * section.receptacle.shape.length_mm;
+    if amplitude >= half_block_mm {
+        return Err(SectionsError::LeavesReceptacle {
+            amplitude_mm: amplitude,
+            half_block_mm,
+        });
+    }
+    let wear = section.surface_wear();
+    for side in Side::BOTH {
+        if wear.of(side).is_some_and(|wear| wear.dose_rate().is_none()) {
+            return Err(SectionsError::Law { side: side.name() });
+        }
+    }
+    Ok(amplitude_mm)
+}
+
+/// Checks that all of a contact slips in each stroke.
+///
+/// # Errors
+/// [`SectionsError::Sticks`].
+pub(crate) fn check_slip(section: &Scene) -> Result<(), SectionsError> {
+    let half_width = unworn_contact::hertz_half_width(section);
+    if unworn_contact::sticks(section, half_width) {
+        return Err(SectionsError::Sticks {
+            amplitude_mm: section.motion.amplitude_mm().abs(),
+            least_mm: 2.0 * unworn_contact::gross_slip(section, half_width),
+        });
+    }
+    Ok(())
+}

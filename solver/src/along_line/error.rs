@@ -1,0 +1,70 @@
+//! Errors that all runs of sections along a line have in common.
+
+use crate::condensation::OperatorError;
+use crate::contact::ContactError;
+use crate::mesh::MeshError;
+
+/// Why sections along a line cannot be simulated, or their contact has no solution.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SectionsError {
+    /// The amplitude is outside of its range.
+    #[error("magnitude of the amplitude in mm is {0}, must be positive")]
+    AmplitudeRange(f64),
+    /// The contact leaves the receptacle.
+    #[error(
+        "amplitude is {amplitude_mm} mm, must be below half of the receptacle's length of {half_block_mm} mm"
+    )]
+    LeavesReceptacle {
+        /// Amplitude, mm.
+        amplitude_mm: f64,
+        /// Half of the length, mm.
+        half_block_mm: f64,
+    },
+    /// A motion with turning points inside, or without any.
+    #[error("sections along a line slide to and fro between two turning points")]
+    Motion,
+    /// Part of the contact may stick through the whole stroke.
+    #[error(
+        "a part of the contact may stick: amplitude is {amplitude_mm} mm, twice the displacement at which all of it slips is {least_mm:.3e} mm"
+    )]
+    Sticks {
+        /// Amplitude, mm.
+        amplitude_mm: f64,
+        /// The least one, mm.
+        least_mm: f64,
+    },
+    /// Friction that changes.
+    #[error("sections along a line have one coefficient of friction")]
+    FrictionLaw,
+    /// A wear rate that depends on the state.
+    #[error("the wear rate of the {side} is not the same in every state")]
+    Law {
+        /// The body.
+        side: &'static str,
+    },
+    /// A contact has no solution.
+    #[error(
+        "cycle {cycle}{}: {source}; the increment was halved {halvings} times",
+        number(*section)
+    )]
+    Contact {
+        /// Cycles done.
+        cycle: u64,
+        /// Number of the section, if it is solved alone.
+        section: Option<usize>,
+        /// Number of halvings.
+        halvings: u32,
+        /// Why.
+        source: ContactError,
+    },
+    /// A section cannot be meshed.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// A section cannot be condensed.
+    #[error(transparent)]
+    Operator(#[from] OperatorError),
+}
+
+fn number(section: Option<usize>) -> String {
+    section.map_or_else(String::new, |number| format!(", station {number}"))
+}
