@@ -2,17 +2,26 @@
 //! node planes.
 
 mod checks;
+mod contact;
 mod error;
+mod integrator;
 mod record;
+mod report;
+mod run;
 mod slide;
+mod state;
 
 use serde::{Deserialize, Serialize};
 
 use crate::sides::{Side, Sides};
 pub(crate) use checks::{check_section, check_slip};
+pub(crate) use contact::{SectionedContact, WornSection};
 pub use error::SectionsError;
-pub(crate) use record::{LineRecord, PositionContacts};
-pub(crate) use slide::{Sections, SectionsIncrement, slide};
+pub(crate) use integrator::SectionsIntegrator;
+pub(crate) use record::PositionContacts;
+pub use run::SectionsOutcome;
+pub(crate) use slide::{Sections, SectionsIncrement};
+pub use state::SectionsState;
 
 /// Where a section lies on its line.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

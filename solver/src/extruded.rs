@@ -30,7 +30,7 @@ mod state;
 
 pub use error::ExtrudedError;
 pub(crate) use integrator::ExtrudedIntegrator;
-pub use record::{ExtrudedOutcome, ExtrudedSummary};
+pub use record::ExtrudedSummary;
 pub use run::run;
 pub use scene::{ExtrudedScene, MOST_LAYERS};
-pub use state::ExtrudedState;
+pub use state::{ExtrudedState, PlanesState};

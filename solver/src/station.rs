@@ -40,9 +40,9 @@ mod top;
 
 pub use error::StationError;
 pub(crate) use integrator::LineIntegrator;
-pub use record::{StationOutcome, StationSummary};
+pub use record::StationSummary;
 pub use run::run;
 pub use scene::StationScene;
 #[cfg(test)]
 pub(crate) use scene::stations_for;
-pub use state::LineState;
+pub use state::{LineState, StationsState};

@@ -21,12 +21,12 @@ use std::ops::ControlFlow;
 
 use crate::verification::recorder::{depth_at, solve};
 use crate::verification::scenes::{COPPER_WEAR, fuzz_button};
-use solver::along_line::StationProfile;
+use solver::along_line::{SectionsOutcome, StationProfile};
 use solver::record::DepthProfile;
 use solver::scene::{Effect, Switches};
 use solver::scene::{Friction, Motion, Scene, WearLaw};
 use solver::scene::{LineShape, RingMotion, Top};
-use solver::station::{StationOutcome, StationScene, StationSummary, run};
+use solver::station::{StationScene, StationSummary, run};
 
 const RADIUS: f64 = 0.4826;
 const FORCE: f64 = 0.834;
@@ -230,7 +230,7 @@ fn groove_as_deep_as_the_wire_ends_the_run() {
     );
     assert_eq!(
         found.outcome,
-        StationOutcome::DeeperThanRadius { station: 2 }
+        SectionsOutcome::DeeperThanRadius { section: 2 }
     );
 }
 

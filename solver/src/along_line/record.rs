@@ -41,6 +41,11 @@ impl LineRecord {
         found.tangential_force_n.push(force_n);
     }
 
+    /// Increments of the cycle.
+    pub(crate) fn increments(&self) -> usize {
+        self.friction_loop.displacement_mm.len()
+    }
+
     /// The contacts at the neutral position of each section, where it was passed.
     pub(crate) fn neutral(&self) -> &[Neutral] {
         let mut positions = self.positions.iter();

@@ -33,8 +33,13 @@ pub(crate) trait Sections {
     /// A copy of what increments change.
     fn save(&self) -> Self::Saved;
 
+    /// Goes back to a copy, with the jump control and the work as they are.
+    fn go_back(&mut self, before: &Self::Saved);
+
     /// Goes back to a copy that was taken before a replay.
-    fn end_replay(&mut self, before: Self::Saved);
+    fn end_replay(&mut self, before: &Self::Saved) {
+        self.go_back(before);
+    }
 
     /// Displacement of the slider, mm.
     fn slider_x(&self) -> f64;
@@ -123,7 +128,7 @@ fn replay<S: Sections>(
         parts.all(|part| retried(sections, part).is_ok())
     });
     let contacts = replayed.then(|| sections.contacts_at(position));
-    sections.end_replay(before);
+    sections.end_replay(&before);
     contacts
 }
 

@@ -14,7 +14,7 @@ use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
 
 /// Both bodies in contact.
-pub(super) struct Contact {
+pub(crate) struct Contact {
     pub(super) bodies: Bodies,
     pub(super) interface: Interface,
     pub(super) spines: Spines,
@@ -26,6 +26,12 @@ pub(super) struct Contact {
     of_plane: Solver,
     next: Vec<ContactState>,
     worn: Vec<PlaneWear>,
+}
+
+/// A copy of what increments change.
+pub(crate) struct SavedPlanes {
+    pub(super) planes: Planes,
+    effort: Effort,
 }
 
 impl Contact {
@@ -144,7 +150,7 @@ impl Contact {
 
 impl Sections for Contact {
     type Error = ContactError;
-    type Saved = (Planes, Effort);
+    type Saved = SavedPlanes;
     const RETRY: RetryPolicy = RETRY;
 
     fn advance(&mut self, increment: SectionsIncrement) -> Result<(), ContactError> {
@@ -193,17 +199,23 @@ impl Sections for Contact {
         self.slopes = self.planes.states.iter().map(of_plane).collect();
     }
 
-    fn save(&self) -> (Planes, Effort) {
-        (self.planes.clone(), self.effort)
+    fn save(&self) -> SavedPlanes {
+        SavedPlanes {
+            planes: self.planes.clone(),
+            effort: self.effort,
+        }
+    }
+
+    fn go_back(&mut self, before: &SavedPlanes) {
+        self.planes.clone_from(&before.planes);
     }
 
     /// Replays count as work, and not as increments of the cycle.
-    fn end_replay(&mut self, before: (Planes, Effort)) {
-        let (planes, effort) = before;
-        self.planes = planes;
+    fn end_replay(&mut self, before: &SavedPlanes) {
+        self.go_back(before);
         self.effort = Effort {
             work: self.effort.work,
-            ..effort
+            ..before.effort
         };
     }
 

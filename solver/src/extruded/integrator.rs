@@ -1,36 +1,38 @@
-//! Computed cycles of extruded bodies: each stands for a jump.
+//! The contact of extruded bodies in their node planes: how its load is applied, and the bodies that follow its wear.
 
 mod plan;
 mod report;
 
+use std::sync::Arc;
+
 use super::bodies::Bodies;
-use super::cycle::Contact;
+use super::cycle::{Contact, SavedPlanes};
 use super::error::ExtrudedError;
 use super::scene::ExtrudedScene;
-use super::state::{CommonPlaneState, ExtrudedState, Planes};
-use crate::along_line::{LineRecord, Sections, SectionsError, slide};
+use super::state::{CommonPlaneState, ExtrudedState, PlanesState};
+use crate::along_line::{Along, SectionedContact, SectionsError, SectionsIntegrator, WornSection};
 use crate::contact::ContactError;
 use crate::cycle::retry::FailedIncrement;
+use crate::cycle::{Checks, Neutral};
 use crate::effects::EffectsPlan;
-use crate::model;
-use crate::number::real_cycles;
-use crate::scene::Scene;
-use crate::schedule::attempts::{Attempts, Remedy, in_wide_zones, longest_accepted_jump};
+use crate::model::{self, Interface};
+use crate::scene::{Motion, Scene};
 use crate::schedule::increments;
-use crate::schedule::plan::Cycles;
-use crate::schedule::replay::ReplayPlan;
-use crate::schedule::step::Position;
+use crate::schedule::plan::{CyclePlan, Cycles};
+use crate::sides::Sides;
+use crate::threads::Threads;
 
-/// Computes the cycles of extruded bodies.
-pub(crate) struct ExtrudedIntegrator {
+/// A contact of extruded bodies.
+pub(crate) struct ExtrudedContact {
     scene: ExtrudedScene,
     /// The plane section.
     plane: Scene,
     contact: Contact,
     common: CommonPlaneState,
-    /// Record of the last computed cycle.
-    record: LineRecord,
 }
+
+/// Computes the cycles of extruded bodies.
+pub(crate) type ExtrudedIntegrator = SectionsIntegrator<ExtrudedContact>;
 
 impl ExtrudedIntegrator {
     /// The loaded contact before any wear, by a plan.
@@ -41,25 +43,7 @@ impl ExtrudedIntegrator {
         scene: &ExtrudedScene,
         plan: &EffectsPlan,
     ) -> Result<(Self, ExtrudedState), ExtrudedError> {
-        let mut run = Self::unloaded(scene, plan)?;
-        in_wide_zones(&mut run, |run| {
-            let loaded = run.contact.apply_load();
-            loaded.map_err(|source| {
-                run.failure(FailedIncrement {
-                    halvings: 0,
-                    source,
-                })
-            })
-        })?;
-        run.common.unworn_half_width = run.contact.planes.mean_half_width;
-        let positions = vec![run.contact.contacts_at(Position::Neutral)];
-        run.take_record(LineRecord {
-            positions,
-            ..LineRecord::default()
-        });
-        run.common.last = run.report(0, &run.paths(), 0, 0);
-        let state = run.state();
-        Ok((run, state))
+        Self::loaded(ExtrudedContact::unloaded(scene, plan)?)
     }
 
     /// For a state of a checkpoint, to the same bits as without it.
@@ -71,11 +55,11 @@ impl ExtrudedIntegrator {
         plan: &EffectsPlan,
         state: &ExtrudedState,
     ) -> Result<Self, ExtrudedError> {
-        let mut run = Self::unloaded(scene, plan)?;
-        run.enter(state)?;
-        Ok(run)
+        Self::resumed(ExtrudedContact::unloaded(scene, plan)?, state)
     }
+}
 
+impl ExtrudedContact {
     /// The unworn bodies without load.
     fn unloaded(scene: &ExtrudedScene, plan: &EffectsPlan) -> Result<Self, ExtrudedError> {
         scene.check()?;
@@ -89,92 +73,137 @@ impl ExtrudedIntegrator {
             plane,
             contact: Contact::new(Bodies::new(scene, built)?),
             common: CommonPlaneState::default(),
-            record: LineRecord::default(),
         })
     }
+}
 
-    /// Slides to the turning point where cycles begin, without wear.
-    fn initial_quarter(&mut self) -> Result<(), ExtrudedError> {
-        let half_width = self.contact.planes.mean_half_width;
-        let (motion, accuracy) = (self.plane.motion, &self.plane.accuracy);
-        let count = increments::count(motion, accuracy, half_width, false);
-        let steps = increments::steps(self.scene.section.motion, count);
-        let quarter = increments::initial_quarter(&steps);
-        in_wide_zones(self, |run| {
-            slide(&mut run.contact, quarter, 0.0, &ReplayPlan::default())
-                .map(|_| ())
-                .map_err(|failed| run.failure(failed))
-        })
+impl SectionedContact for ExtrudedContact {
+    type Sections = Contact;
+    type State = PlanesState;
+    type Error = ExtrudedError;
+
+    fn sections(&self) -> &Contact {
+        &self.contact
     }
 
-    /// Computes the next cycle up to a number of them, with shorter jumps until it has a solution.
-    ///
-    /// # Errors
-    /// A contact without a solution, a body that cannot be meshed or condensed; the state is then as before.
-    pub(crate) fn compute_cycle(
-        &mut self,
-        state: &mut ExtrudedState,
-        until: u64,
-    ) -> Result<(), ExtrudedError> {
-        self.enter(state)?;
-        if self.common.computed == 0 {
-            self.initial_quarter()?;
-        }
-        self.follow_wear()?;
-        let (paths, (increments, iterations)) = (self.paths(), self.solves());
-        let done = self.common.done;
-        let first = self.next_jump(until.max(done + 1) - done);
-        let (jump, record) = longest_accepted_jump(self, first)?;
-        let taken = record.friction_loop.displacement_mm.len();
-        self.common.most_increments = self.common.most_increments.max(taken);
-        self.common.done += jump;
-        self.common.computed += 1;
-        self.take_record(record);
-        self.common.last = self.report(jump, &paths, increments, iterations);
-        *state = self.state();
+    fn sections_mut(&mut self) -> &mut Contact {
+        &mut self.contact
+    }
+
+    fn plane(&self) -> &Scene {
+        &self.plane
+    }
+
+    fn interface(&self) -> &Interface {
+        &self.contact.interface
+    }
+
+    fn motion(&self) -> Motion {
+        self.scene.section.motion
+    }
+
+    fn force_n(&self) -> f64 {
+        self.scene.force_n()
+    }
+
+    fn threads(&self) -> Option<Arc<Threads>> {
+        None
+    }
+
+    fn apply_load(&mut self) -> Result<(), ExtrudedError> {
+        let loaded = self.contact.apply_load();
+        loaded.map_err(|source| {
+            let halvings = 0;
+            self.failure(0, FailedIncrement { halvings, source })
+        })?;
+        self.common.unworn_half_width = self.contact.planes.mean_half_width;
         Ok(())
     }
 
-    /// Takes a record, with the contacts of its neutral position.
-    fn take_record(&mut self, record: LineRecord) {
-        let states = self.contact.planes.states.iter_mut();
-        for (state, found) in states.zip(record.neutral()) {
-            state.neutral = *found;
+    fn first_increments(&self) -> usize {
+        let half_width = self.contact.planes.mean_half_width;
+        let (motion, accuracy) = (self.plane.motion, &self.plane.accuracy);
+        increments::count(motion, accuracy, half_width, false)
+    }
+
+    fn follow_wear(&mut self) -> Result<u64, ExtrudedError> {
+        let (bodies, states) = (&self.contact.bodies, &self.contact.planes.states);
+        let depths = || states.iter().map(|state| &state.depth);
+        if !bodies.have_drifted(depths(), &self.plane.accuracy) {
+            return Ok(0);
         }
-        self.record = record;
+        self.common.built = depths().cloned().collect();
+        self.contact.bodies.follow(&self.common)?;
+        Ok(1)
     }
 
-    /// Takes the state that the next cycle begins with.
-    fn enter(&mut self, state: &ExtrudedState) -> Result<(), ExtrudedError> {
-        self.contact.planes.clone_from(&state.planes);
-        self.contact.effort = state.effort;
-        self.common.clone_from(&state.common);
-        self.contact.bodies.follow(&self.common)
+    fn widen(&mut self, error: &ExtrudedError) -> Result<bool, ExtrudedError> {
+        let ExtrudedError::Sections(SectionsError::Contact {
+            source: ContactError::WiderThanZone { .. },
+            ..
+        }) = error
+        else {
+            return Ok(false);
+        };
+        self.common.widenings += 1;
+        self.contact.bodies.follow(&self.common)?;
+        Ok(true)
     }
 
-    /// The state after the last cycle.
-    fn state(&self) -> ExtrudedState {
-        ExtrudedState {
+    fn failure(&self, cycle: u64, failed: FailedIncrement<ContactError>) -> ExtrudedError {
+        let FailedIncrement { halvings, source } = failed;
+        ExtrudedError::Sections(SectionsError::Contact {
+            cycle,
+            section: None,
+            halvings,
+            source,
+        })
+    }
+
+    fn state(&self) -> PlanesState {
+        PlanesState {
             planes: self.contact.planes.clone(),
             common: self.common.clone(),
             effort: self.contact.effort,
         }
     }
 
-    /// Condenses again what has drifted from the geometry of the operators.
-    fn follow_wear(&mut self) -> Result<(), ExtrudedError> {
-        let states = &self.contact.planes.states;
-        let depths = || states.iter().map(|state| &state.depth);
-        if !self
-            .contact
-            .bodies
-            .have_drifted(depths(), &self.plane.accuracy)
-        {
-            return Ok(());
-        }
-        self.common.built = depths().cloned().collect();
-        self.common.relocations += 1;
+    fn enter(&mut self, state: &PlanesState) -> Result<(), ExtrudedError> {
+        self.contact.planes.clone_from(&state.planes);
+        self.contact.effort = state.effort;
+        self.common.clone_from(&state.common);
         self.contact.bodies.follow(&self.common)
+    }
+
+    fn take_neutral(&mut self, found: &[Neutral]) {
+        for (state, found) in self.contact.planes.states.iter_mut().zip(found) {
+            state.neutral = *found;
+        }
+    }
+
+    fn next_jump(&mut self, remaining: u64) -> u64 {
+        let (stroke, accuracy) = (self.stroke(), &self.plane.accuracy);
+        self.common.jump.next(accuracy, stroke, remaining)
+    }
+
+    fn cycle_plan(&self, cycles: Cycles) -> CyclePlan {
+        self.plan(cycles)
+    }
+
+    fn rejected(&mut self, before: &SavedPlanes, jump: u64) -> Option<u64> {
+        let control = self.common.jump.clone();
+        self.measure_jump(&before.planes, jump);
+        let shorter = self.shorter_jump(jump)?;
+        self.common.jump = control;
+        Some(shorter)
+    }
+
+    fn limit(&mut self, most: u64) {
+        self.common.jump.limit(most);
+    }
+
+    fn jump_error(&self) -> f64 {
+        self.common.jump.error
     }
 
     fn solves(&self) -> (usize, usize) {
@@ -182,62 +211,36 @@ impl ExtrudedIntegrator {
         (effort.increments, effort.iterations)
     }
 
-    fn failure(&self, failed: FailedIncrement<ContactError>) -> ExtrudedError {
-        let FailedIncrement { halvings, source } = failed;
-        ExtrudedError::Sections(SectionsError::Contact {
-            cycle: self.common.done,
-            section: None,
-            halvings,
-            source,
-        })
-    }
-}
-
-impl Attempts for ExtrudedIntegrator {
-    type Saved = Planes;
-    type Record = LineRecord;
-    type Error = ExtrudedError;
-
-    fn attempt(&mut self, jump: u64) -> Result<LineRecord, ExtrudedError> {
-        let done = self.common.done;
-        let plan = self.cycle_plan(Cycles { done, jump });
-        let steps = increments::steps(self.scene.section.motion, plan.steps);
-        slide(&mut self.contact, &steps, real_cycles(jump), &plan.replays)
-            .map_err(|failed| self.failure(failed))
+    fn checks(&self) -> Checks {
+        self.contact.effort.checks
     }
 
-    fn rejected(&mut self, before: &Planes, _: &LineRecord, jump: u64) -> Option<u64> {
-        let control = self.common.jump.clone();
-        self.measure_jump(before, jump);
-        let shorter = self.shorter_jump(jump)?;
-        self.common.jump = control;
-        Some(shorter)
-    }
-
-    fn save(&self) -> Planes {
-        self.contact.planes.clone()
-    }
-
-    fn go_back(&mut self, before: &Planes) {
-        self.contact.planes.clone_from(before);
-    }
-
-    fn remedy(&mut self, error: &ExtrudedError) -> Result<Remedy, ExtrudedError> {
-        let ExtrudedError::Sections(SectionsError::Contact {
-            source: ContactError::WiderThanZone { .. },
-            ..
-        }) = error
-        else {
-            return Ok(Remedy::ShorterJump);
-        };
-        self.common.widenings += 1;
-        self.common.relocations += 1;
-        self.contact.bodies.follow(&self.common)?;
-        Ok(Remedy::WiderZones)
-    }
-
-    fn limit(&mut self, most: u64) -> u64 {
-        self.common.jump.limit(most);
-        most
+    fn worn(&self) -> Vec<WornSection<'_>> {
+        let bodies = &self.contact.bodies;
+        let sections = bodies.operators.sections.as_ref();
+        let rates = self.common.jump.rates();
+        let width = self.scene.width_mm;
+        let states = self.contact.planes.states.iter().enumerate();
+        let places = bodies.planes.z().iter().zip(&bodies.shares);
+        let planes = states.zip(places);
+        planes
+            .map(|((plane, state), (z, share))| WornSection {
+                at: Along::DistanceMm(0.5 * width - z),
+                weight_mm: share * width,
+                x_mm: sections.map(|section| &section.x[..]),
+                widths_mm: sections.map(|section| &section.widths[..]),
+                depth: &state.depth,
+                rates: Sides::from_fn(|side| {
+                    let nodes = state.depth.of(side).len();
+                    let own = rates.of(side).get(plane * nodes..(plane + 1) * nodes);
+                    own.unwrap_or_default()
+                }),
+                worn_area: state.worn_area,
+                path: state.path,
+                energy: state.energy,
+                neutral: state.neutral,
+                spines: &self.contact.spines,
+            })
+            .collect()
     }
 }

@@ -1,31 +1,12 @@
 //! Record of a run of extruded bodies.
 
-use crate::along_line::{StationCycle, StationProfile};
-
-/// How a run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ExtrudedOutcome {
-    /// All cycles are done.
-    Completed,
-    /// A body is nearly consumed in a node plane.
-    WornThrough {
-        /// Number.
-        plane: usize,
-    },
-    /// The groove of a node plane is as deep below an end of its surface as the slider's radius: no graph describes walls that overhang.
-    DeeperThanRadius {
-        /// Number.
-        plane: usize,
-    },
-    /// The receiver of its cycles ended it.
-    Stopped,
-}
+use crate::along_line::{SectionsOutcome, StationCycle, StationProfile};
 
 /// Result of a run. Sections are the node planes of the half width, from the end to the middle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExtrudedSummary {
     /// How it ended.
-    pub outcome: ExtrudedOutcome,
+    pub outcome: SectionsOutcome,
     /// The loaded contact before any wear.
     pub initial: StationCycle,
     /// Distance by which the slider sinks under the load, mm.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::along_line::StationCycle;
+use crate::along_line::SectionsState;
 use crate::contact::{ContactState, Work};
 use crate::cycle::{Checks, Neutral, WarmStarts};
 use crate::schedule::jump::JumpControl;
@@ -28,7 +28,7 @@ pub(super) struct PlaneState {
 
 /// State that increments change.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Planes {
+pub(super) struct Planes {
     pub(super) states: Vec<PlaneState>,
     /// Contact of each plane.
     pub(super) contacts: Vec<ContactState>,
@@ -42,19 +42,10 @@ pub(super) struct CommonPlaneState {
     /// Half-width of the unworn contact, mm.
     pub(super) unworn_half_width: f64,
     pub(super) jump: JumpControl,
-    /// Cycles done.
-    pub(super) done: u64,
-    pub(super) computed: u64,
-    /// Most increments of a cycle.
-    pub(super) most_increments: usize,
-    /// Times that bodies were condensed again.
-    pub(super) relocations: u64,
     /// Worn depths of each plane at which the operators were last built, mm; none of the unworn bodies.
     pub(super) built: Vec<Sides<Vec<f64>>>,
     /// Width of the zones over that of the layout, in powers of 2.
     pub(super) widenings: u32,
-    /// The last computed cycle.
-    pub(super) last: StationCycle,
 }
 
 /// Effort and worst residuals of the increments so far.
@@ -66,57 +57,36 @@ pub(super) struct Effort {
     pub(super) checks: Checks,
 }
 
-/// State of a run of extruded bodies between two computed cycles.
+/// State of all planes between two computed cycles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ExtrudedState {
+pub struct PlanesState {
     pub(super) planes: Planes,
     pub(super) common: CommonPlaneState,
     pub(super) effort: Effort,
 }
 
+/// State of a run of extruded bodies between two computed cycles.
+pub type ExtrudedState = SectionsState<PlanesState>;
+
 impl ExtrudedState {
-    /// Cycles done.
-    pub(crate) fn cycle(&self) -> u64 {
-        self.common.done
-    }
-
-    /// The last computed cycle.
-    pub(crate) fn last(&self) -> &StationCycle {
-        &self.common.last
-    }
-
-    /// Number of node planes.
-    pub(crate) fn planes(&self) -> usize {
-        self.planes.states.len()
-    }
-
     /// Largest wear of a node of each side per cycle in the last computed one, mm.
     pub(crate) fn fastest_rate(&self) -> Sides<f64> {
-        self.common.jump.fastest_rate()
-    }
-
-    /// Computed cycles, and the most increments of one.
-    pub(crate) fn computed(&self) -> (u64, usize) {
-        (self.common.computed, self.common.most_increments)
+        self.sections.common.jump.fastest_rate()
     }
 
     /// Increments of the run, and Newton iterations in these.
     pub(crate) fn solves(&self) -> (usize, usize) {
-        (self.effort.increments, self.effort.iterations)
-    }
-
-    /// Times that bodies were condensed again.
-    pub(crate) fn relocations(&self) -> u64 {
-        self.common.relocations
+        let effort = &self.sections.effort;
+        (effort.increments, effort.iterations)
     }
 
     /// Work of all contact solves.
     pub(crate) fn work(&self) -> Work {
-        self.effort.work
+        self.sections.effort.work
     }
 
     /// Estimated relative error of the worn depth by the jumps so far.
     pub(crate) fn mean_jump_error(&self) -> f64 {
-        self.common.jump.mean_error()
+        self.sections.common.jump.mean_error()
     }
 }

@@ -11,7 +11,7 @@ use crate::cycle::retry::{IncrementError, RETRY, RetryPolicy};
 use crate::schedule::step::Position;
 
 /// The stations on their carrier, with the slider at a place.
-pub(super) struct Line {
+pub(crate) struct Line {
     pub(super) carrier: Carrier,
     pub(super) stations: Vec<Station>,
     pub(super) common: CommonLineState,
@@ -58,9 +58,18 @@ impl Sections for Line {
         }
     }
 
-    /// Replays count as increments of the cycle.
-    fn end_replay(&mut self, before: SavedLine) {
-        self.restore(&before);
+    /// Increments of replays count.
+    fn go_back(&mut self, before: &SavedLine) {
+        for (station, state) in self.stations.iter_mut().zip(&before.stations) {
+            let jump = std::mem::take(&mut station.state.jump);
+            station.state = StationState {
+                jump,
+                work: station.state.work,
+                ..state.clone()
+            };
+        }
+        self.common.height = before.height.clone();
+        self.common.slider_x = before.slider_x;
     }
 
     fn slider_x(&self) -> f64 {
@@ -117,22 +126,6 @@ impl Sections for Line {
             state.warm_starts = starts;
             state.mean_half_width = half_width.unwrap_or(state.mean_half_width);
         }
-    }
-}
-
-impl Line {
-    /// Goes back to a copy, with the jump controls and the work as they are.
-    pub(super) fn restore(&mut self, before: &SavedLine) {
-        for (station, state) in self.stations.iter_mut().zip(&before.stations) {
-            let jump = std::mem::take(&mut station.state.jump);
-            station.state = StationState {
-                jump,
-                work: station.state.work,
-                ..state.clone()
-            };
-        }
-        self.common.height = before.height.clone();
-        self.common.slider_x = before.slider_x;
     }
 }
 

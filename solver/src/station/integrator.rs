@@ -1,4 +1,4 @@
-//! Computed cycles of a line: each stands for a jump, which the worst station decides.
+//! The contact of stations under their top: how its load is applied, and the sections that follow its wear.
 
 mod plan;
 mod report;
@@ -14,34 +14,33 @@ use super::place::places;
 use super::scene::{StationScene, intervals_within};
 use super::section::Station;
 use super::side_by_side::for_each;
-use super::state::{CommonLineState, LineState, StationState};
+use super::state::{CommonLineState, LineState, StationState, StationsState};
 use super::top::{Carrier, Unsolved};
-use crate::along_line::{LineRecord, Sections, SectionsError, SectionsIncrement, slide};
+use crate::along_line::{
+    SectionedContact, SectionsError, SectionsIncrement, SectionsIntegrator, WornSection,
+};
 use crate::contact::{ContactError, ContactState};
 use crate::cycle::retry::FailedIncrement;
+use crate::cycle::{Checks, Neutral};
 use crate::effects::EffectsPlan;
-use crate::model;
-use crate::number::real_cycles;
-use crate::scene::{Scene, Top};
-use crate::schedule::attempts::{Attempts, Remedy, in_wide_zones, longest_accepted_jump};
-use crate::schedule::increments;
-use crate::schedule::plan::Cycles;
-use crate::schedule::replay::ReplayPlan;
-use crate::schedule::step::Position;
+use crate::model::{self, Interface};
+use crate::scene::{Motion, Scene, Top};
+use crate::schedule::plan::{CyclePlan, Cycles};
 use crate::threads::Threads;
 
-/// Computes the cycles of a contact along a line.
-pub(crate) struct LineIntegrator {
+/// A contact along a line in stations.
+pub(crate) struct LineContact {
     scene: StationScene,
     /// The plane section under the mean line load.
     plane: Scene,
     amplitude_mm: f64,
     unworn: Arc<Section>,
     line: Line,
-    /// Record of the last computed cycle.
-    record: LineRecord,
     threads: Arc<Threads>,
 }
+
+/// Computes the cycles of a contact along a line.
+pub(crate) type LineIntegrator = SectionsIntegrator<LineContact>;
 
 impl LineIntegrator {
     /// The loaded contact before any wear, by a plan.
@@ -52,13 +51,7 @@ impl LineIntegrator {
         scene: &StationScene,
         plan: &EffectsPlan,
     ) -> Result<(Self, LineState), StationError> {
-        let mut integrator = Self::unloaded(scene, plan)?;
-        let threads = Arc::clone(&integrator.threads);
-        threads.within(|| integrator.apply_load())?;
-        integrator.record.positions = vec![integrator.line.contacts_at(Position::Neutral)];
-        integrator.line.common.last = integrator.report(0, &integrator.paths(), 0, 0);
-        let state = integrator.state();
-        Ok((integrator, state))
+        Self::loaded(LineContact::unloaded(scene, plan)?)
     }
 
     /// For a state of a checkpoint, to the same bits as without it.
@@ -70,17 +63,11 @@ impl LineIntegrator {
         plan: &EffectsPlan,
         state: &LineState,
     ) -> Result<Self, StationError> {
-        let mut integrator = Self::unloaded(scene, plan)?;
-        debug_assert_eq!(
-            state.stations.len(),
-            integrator.line.stations.len(),
-            "the state is one of this scene"
-        );
-        let threads = Arc::clone(&integrator.threads);
-        threads.within(|| integrator.enter(state))?;
-        Ok(integrator)
+        Self::resumed(LineContact::unloaded(scene, plan)?, state)
     }
+}
 
+impl LineContact {
     /// The unworn sections without load.
     fn unloaded(scene: &StationScene, plan: &EffectsPlan) -> Result<Self, StationError> {
         let amplitude_mm = scene.check()?;
@@ -112,22 +99,7 @@ impl LineIntegrator {
             plane,
             amplitude_mm,
             unworn,
-            record: LineRecord::default(),
             threads: Arc::new(Threads::new(scene.section.threads.min(scene.stations))),
-        })
-    }
-
-    /// Applies the load, with wider zones where the contact of a section needs them.
-    fn apply_load(&mut self) -> Result<(), StationError> {
-        in_wide_zones(self, |integrator| {
-            integrator.line.stations.iter_mut().for_each(Station::hold);
-            let loaded = integrator.apply_load_once();
-            integrator
-                .line
-                .stations
-                .iter_mut()
-                .for_each(Station::release);
-            loaded
         })
     }
 
@@ -154,104 +126,19 @@ impl LineIntegrator {
         line.carrier
             .advance(&mut line.stations, &mut line.common.height, first_load)
             .map_err(|source| {
-                self.failure(FailedIncrement {
-                    halvings: 0,
-                    source,
-                })
+                self.failure(
+                    0,
+                    FailedIncrement {
+                        halvings: 0,
+                        source,
+                    },
+                )
             })?;
         self.line.common.height.loaded();
         for station in &mut self.line.stations {
             station.loaded();
         }
         Ok(())
-    }
-
-    /// Slides to the turning point where cycles begin, without wear.
-    fn initial_quarter(&mut self) -> Result<(), StationError> {
-        let count = self.largest(|run, j| {
-            let half_width = run.line.stations[j].state.mean_half_width;
-            increments::count(run.motion(j), &run.plane.accuracy, half_width, false)
-        });
-        let steps = increments::steps(self.plane.motion, count);
-        let quarter = increments::initial_quarter(&steps);
-        in_wide_zones(self, |integrator| {
-            slide(&mut integrator.line, quarter, 0.0, &ReplayPlan::default())
-                .map(|_| ())
-                .map_err(|failed| integrator.failure(failed))
-        })
-    }
-
-    /// Computes the next cycle up to a number of them, with shorter jumps until it has a solution.
-    ///
-    /// # Errors
-    /// A contact without a solution, a section that cannot be meshed; the state is then as before.
-    pub(crate) fn compute_cycle(
-        &mut self,
-        state: &mut LineState,
-        until: u64,
-    ) -> Result<(), StationError> {
-        let threads = Arc::clone(&self.threads);
-        threads.within(|| self.compute_cycle_within(state, until))
-    }
-
-    fn compute_cycle_within(
-        &mut self,
-        state: &mut LineState,
-        until: u64,
-    ) -> Result<(), StationError> {
-        self.enter(state)?;
-        if self.line.common.computed == 0 {
-            self.initial_quarter()?;
-        }
-        self.follow_wear()?;
-        let paths = self.paths();
-        let (increments, iterations) = (self.line.common.increments, self.line.common.iterations);
-        let done = self.line.common.done;
-        let first = self.next_jump(until.max(done + 1) - done);
-        let (jump, record) = longest_accepted_jump(self, first)?;
-        let common = &mut self.line.common;
-        let taken = record.friction_loop.displacement_mm.len();
-        common.most_increments = common.most_increments.max(taken);
-        common.done += jump;
-        common.computed += 1;
-        self.take_record(record);
-        self.line.common.last = self.report(jump, &paths, increments, iterations);
-        *state = self.state();
-        Ok(())
-    }
-
-    /// Takes the record of a cycle, with the contacts of its neutral position.
-    fn take_record(&mut self, record: LineRecord) {
-        for (station, found) in self.line.stations.iter_mut().zip(record.neutral()) {
-            station.state.neutral = *found;
-        }
-        self.record = record;
-    }
-
-    /// Takes the state that the next cycle begins with.
-    fn enter(&mut self, state: &LineState) -> Result<(), SectionsError> {
-        for (station, state) in self.line.stations.iter_mut().zip(&state.stations) {
-            station.state = state.clone();
-        }
-        self.line.common = state.common.clone();
-        self.build()
-    }
-
-    /// The state after the last cycle.
-    fn state(&self) -> LineState {
-        let stations = self.line.stations.iter();
-        LineState {
-            stations: stations.map(|station| station.state.clone()).collect(),
-            common: self.line.common.clone(),
-        }
-    }
-
-    /// Condenses sections again that have drifted from the geometry of their operators.
-    fn follow_wear(&mut self) -> Result<(), SectionsError> {
-        for station in &mut self.line.stations {
-            self.line.common.relocations += u64::from(station.drifts(&self.plane.accuracy));
-        }
-        self.build()
     }
 
     /// Builds the sections of the present states.
@@ -262,10 +149,78 @@ impl LineIntegrator {
         })
         .map_err(|(_, error)| error)
     }
+}
 
-    fn failure(&self, failed: FailedIncrement<Unsolved>) -> StationError {
+impl SectionedContact for LineContact {
+    type Sections = Line;
+    type State = StationsState;
+    type Error = StationError;
+
+    fn sections(&self) -> &Line {
+        &self.line
+    }
+
+    fn sections_mut(&mut self) -> &mut Line {
+        &mut self.line
+    }
+
+    fn plane(&self) -> &Scene {
+        &self.plane
+    }
+
+    fn interface(&self) -> &Interface {
+        &self.unworn.model.interface
+    }
+
+    fn motion(&self) -> Motion {
+        self.plane.motion
+    }
+
+    fn force_n(&self) -> f64 {
+        self.scene.force_n
+    }
+
+    fn threads(&self) -> Option<Arc<Threads>> {
+        Some(Arc::clone(&self.threads))
+    }
+
+    fn apply_load(&mut self) -> Result<(), StationError> {
+        self.line.stations.iter_mut().for_each(Station::hold);
+        let loaded = self.apply_load_once();
+        self.line.stations.iter_mut().for_each(Station::release);
+        loaded
+    }
+
+    fn first_increments(&self) -> usize {
+        self.most_increments()
+    }
+
+    fn follow_wear(&mut self) -> Result<u64, StationError> {
+        let mut drifted = 0;
+        for station in &mut self.line.stations {
+            drifted += u64::from(station.drifts(&self.plane.accuracy));
+        }
+        self.build()?;
+        Ok(drifted)
+    }
+
+    /// The zones of the station that needs it, with all others as they are.
+    fn widen(&mut self, error: &StationError) -> Result<bool, StationError> {
+        let StationError::Sections(SectionsError::Contact {
+            section: Some(station),
+            source: ContactError::WiderThanZone { .. },
+            ..
+        }) = *error
+        else {
+            return Ok(false);
+        };
+        self.line.stations[station].widen();
+        self.build()?;
+        Ok(true)
+    }
+
+    fn failure(&self, cycle: u64, failed: FailedIncrement<Unsolved>) -> StationError {
         let FailedIncrement { halvings, source } = failed;
-        let cycle = self.line.common.done;
         match source {
             Unsolved::Section { station, source } => SectionsError::Contact {
                 cycle,
@@ -286,23 +241,44 @@ impl LineIntegrator {
             },
         }
     }
-}
 
-impl Attempts for LineIntegrator {
-    type Saved = SavedLine;
-    type Record = LineRecord;
-    type Error = StationError;
-
-    fn attempt(&mut self, jump: u64) -> Result<LineRecord, StationError> {
-        let done = self.line.common.done;
-        let plan = self.cycle_plan(Cycles { done, jump });
-        let steps = increments::steps(self.plane.motion, plan.steps);
-        slide(&mut self.line, &steps, real_cycles(jump), &plan.replays)
-            .map_err(|failed| self.failure(failed))
+    fn state(&self) -> StationsState {
+        let stations = self.line.stations.iter();
+        StationsState {
+            stations: stations.map(|station| station.state.clone()).collect(),
+            common: self.line.common.clone(),
+        }
     }
 
-    /// That of the worst station whose rate depends on its depth.
-    fn rejected(&mut self, before: &SavedLine, _: &LineRecord, jump: u64) -> Option<u64> {
+    fn enter(&mut self, state: &StationsState) -> Result<(), StationError> {
+        let stations = &mut self.line.stations;
+        debug_assert_eq!(
+            state.stations.len(),
+            stations.len(),
+            "the state is one of this scene"
+        );
+        for (station, state) in stations.iter_mut().zip(&state.stations) {
+            station.state = state.clone();
+        }
+        self.line.common = state.common.clone();
+        Ok(self.build()?)
+    }
+
+    fn take_neutral(&mut self, found: &[Neutral]) {
+        for (station, found) in self.line.stations.iter_mut().zip(found) {
+            station.state.neutral = *found;
+        }
+    }
+
+    fn next_jump(&mut self, remaining: u64) -> u64 {
+        self.jump_of_leading(remaining)
+    }
+
+    fn cycle_plan(&self, cycles: Cycles) -> CyclePlan {
+        self.plan_of_leading(cycles)
+    }
+
+    fn rejected(&mut self, before: &SavedLine, jump: u64) -> Option<u64> {
         self.measure_jump(&before.stations, jump);
         let shorter = self.shorter_jump(jump)?;
         for (station, state) in self.line.stations.iter_mut().zip(&before.stations) {
@@ -311,33 +287,38 @@ impl Attempts for LineIntegrator {
         Some(shorter)
     }
 
-    fn save(&self) -> SavedLine {
-        self.line.save()
-    }
-
-    fn go_back(&mut self, before: &SavedLine) {
-        self.line.restore(before);
-    }
-
-    fn remedy(&mut self, error: &StationError) -> Result<Remedy, StationError> {
-        let StationError::Sections(SectionsError::Contact {
-            section: Some(station),
-            source: ContactError::WiderThanZone { .. },
-            ..
-        }) = *error
-        else {
-            return Ok(Remedy::ShorterJump);
-        };
-        self.line.stations[station].widen();
-        self.line.common.relocations += 1;
-        self.build()?;
-        Ok(Remedy::WiderZones)
-    }
-
-    fn limit(&mut self, most: u64) -> u64 {
+    fn limit(&mut self, most: u64) {
         for station in &mut self.line.stations {
             station.state.jump.limit(most);
         }
-        most
+    }
+
+    fn jump_error(&self) -> f64 {
+        let stations = self.line.stations.iter();
+        let errors = stations.map(|station| station.state.jump.error);
+        errors.fold(0.0, f64::max)
+    }
+
+    fn solves(&self) -> (usize, usize) {
+        (self.line.common.increments, self.line.common.iterations)
+    }
+
+    fn checks(&self) -> Checks {
+        let own = Checks {
+            force_balance: self.line.common.height.imbalance,
+            force_balance_present_normals: self.line.common.imbalance,
+            ..Checks::default()
+        };
+        let stations = self.line.stations.iter();
+        stations.fold(own, |worst, station| {
+            Checks::worse_of(worst, station.state.checks)
+        })
+    }
+
+    fn worn(&self) -> Vec<WornSection<'_>> {
+        let bodies = self.unworn.model.bodies.as_ref();
+        let x_mm = bodies.map(|body| body.contact_x());
+        let stations = self.line.stations.iter();
+        stations.map(|station| station.worn(x_mm)).collect()
     }
 }

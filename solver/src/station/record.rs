@@ -1,31 +1,12 @@
 //! Record of a run of stations.
 
-use crate::along_line::{StationCycle, StationProfile};
-
-/// How a run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StationOutcome {
-    /// All cycles are done.
-    Completed,
-    /// A body is nearly consumed under a station.
-    WornThrough {
-        /// Number.
-        station: usize,
-    },
-    /// The groove of a station is as deep below an end of its surface as the slider's radius: no graph describes walls that overhang.
-    DeeperThanRadius {
-        /// Number.
-        station: usize,
-    },
-    /// The receiver of its cycles ended it.
-    Stopped,
-}
+use crate::along_line::{SectionsOutcome, StationCycle, StationProfile};
 
 /// Result of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StationSummary {
     /// How it ended.
-    pub outcome: StationOutcome,
+    pub outcome: SectionsOutcome,
     /// The loaded contact before any wear.
     pub initial: StationCycle,
     /// The last computed cycle.

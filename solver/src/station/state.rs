@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::height::Height;
-use crate::along_line::StationCycle;
+use crate::along_line::SectionsState;
 use crate::contact::{ContactState, Work};
 use crate::cycle::{Checks, Neutral, WarmStarts};
 use crate::model::Model;
@@ -46,28 +46,22 @@ pub(super) struct CommonLineState {
     pub(super) height: Height,
     /// Displacement of the slider, mm.
     pub(super) slider_x: f64,
-    /// Cycles done.
-    pub(super) done: u64,
-    pub(super) computed: u64,
     /// Increments of the run, and iterations for the common height in these.
     pub(super) increments: usize,
     pub(super) iterations: usize,
-    /// Most increments of a cycle.
-    pub(super) most_increments: usize,
     /// Worst imbalance of forces with the normals of the surfaces as worn, over the force.
     pub(super) imbalance: f64,
-    /// Times that sections were condensed again.
-    pub(super) relocations: u64,
-    /// The last computed cycle.
-    pub(super) last: StationCycle,
 }
 
-/// State of a run along a line between two computed cycles.
+/// State of all stations between two computed cycles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct LineState {
+pub struct StationsState {
     pub(super) stations: Vec<StationState>,
     pub(super) common: CommonLineState,
 }
+
+/// State of a run along a line between two computed cycles.
+pub type LineState = SectionsState<StationsState>;
 
 impl StationState {
     /// An unworn, unloaded station.
@@ -93,19 +87,10 @@ impl StationState {
 }
 
 impl LineState {
-    /// Cycles done.
-    pub(crate) fn cycle(&self) -> u64 {
-        self.common.done
-    }
-
-    /// The last computed cycle.
-    pub(crate) fn last(&self) -> &StationCycle {
-        &self.common.last
-    }
-
     /// Largest wear of a place of each side per cycle in the last computed one, as equivalent depth, mm.
     pub(crate) fn fastest_rate(&self) -> Sides<f64> {
         let rates = self
+            .sections
             .stations
             .iter()
             .map(|station| station.jump.fastest_rate());
@@ -115,25 +100,18 @@ impl LineState {
         })
     }
 
-    /// Computed cycles, and the most increments of one.
-    pub(crate) fn computed(&self) -> (u64, usize) {
-        (self.common.computed, self.common.most_increments)
-    }
-
     /// Increments of the run, and iterations for the common height in these.
     pub(crate) fn solves(&self) -> (usize, usize) {
-        (self.common.increments, self.common.iterations)
-    }
-
-    /// Times that sections were condensed again.
-    pub(crate) fn relocations(&self) -> u64 {
-        self.common.relocations
+        (
+            self.sections.common.increments,
+            self.sections.common.iterations,
+        )
     }
 
     /// Work of all contact solves.
     pub(crate) fn work(&self) -> Work {
         let mut work = Work::default();
-        for station in &self.stations {
+        for station in &self.sections.stations {
             work += station.work;
         }
         work
@@ -142,6 +120,7 @@ impl LineState {
     /// Estimated relative error of the worn depth by the jumps so far: that of the worst station.
     pub(crate) fn mean_jump_error(&self) -> f64 {
         let errors = self
+            .sections
             .stations
             .iter()
             .map(|station| station.jump.mean_error());

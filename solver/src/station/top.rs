@@ -25,7 +25,7 @@ const FIRST_STEP: f64 = 1.0;
 
 /// Why an increment of all stations has no solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Unsolved {
+pub(crate) enum Unsolved {
     /// A section has none.
     Section {
         /// Number.

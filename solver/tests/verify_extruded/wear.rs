@@ -3,7 +3,8 @@
 use super::{TWO, WIDTH, button, difference, solved};
 use crate::verification::recorder::solve;
 use crate::verification::scenes::{COPPER_WEAR, groove, pin, scar, sprung_contact};
-use solver::extruded::{ExtrudedOutcome, ExtrudedScene, ExtrudedSummary};
+use solver::along_line::SectionsOutcome;
+use solver::extruded::{ExtrudedScene, ExtrudedSummary};
 use solver::interpolation;
 use solver::scene::{Accuracy, Drive, Ends, Friction, Motion, WearLaw};
 use solver::scene::{Effect, Switches};
@@ -131,7 +132,7 @@ fn sections_of_the_suite_run_between_free_ends() {
             depths.collect::<Vec<f64>>(),
             found.computed_cycles
         );
-        assert_eq!(found.outcome, ExtrudedOutcome::Completed);
+        assert_eq!(found.outcome, SectionsOutcome::Completed);
         assert!(balance.abs() < 1e-10 && ideal.abs() < 0.05);
         assert!((last.force_n / scene.force_n() - 1.0).abs() < 1e-9);
         assert!(

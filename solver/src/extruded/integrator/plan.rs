@@ -1,6 +1,6 @@
 //! Inputs of the schedule of a run: one jump and one series of increments for all planes.
 
-use super::ExtrudedIntegrator;
+use super::ExtrudedContact;
 use crate::change::Change;
 use crate::extruded::state::Planes;
 use crate::law::surface::SurfaceWear;
@@ -10,7 +10,7 @@ use crate::schedule::plan::{CyclePlan, Cycles, Followed};
 use crate::schedule::stroke::{Movement, Stroke};
 use crate::sides::{Side, Sides};
 
-impl ExtrudedIntegrator {
+impl ExtrudedContact {
     /// Largest wear rates from the surfaces down to the worn depths, 1/MPa.
     fn rates(&self) -> Sides<f64> {
         let states = self.contact.planes.states.iter();
@@ -33,14 +33,6 @@ impl ExtrudedIntegrator {
         }
         let control = &self.common.jump;
         control.rejected(&self.plane.accuracy, self.stroke(), jump)
-    }
-
-    /// The next jump.
-    pub(super) fn next_jump(&mut self, remaining: u64) -> u64 {
-        let stroke = self.stroke();
-        self.common
-            .jump
-            .next(&self.plane.accuracy, stroke, remaining)
     }
 
     /// Measures what the next jump depends on. Its error is that of the volume: nodes weigh by their width and by the length of their plane.
@@ -76,7 +68,7 @@ impl ExtrudedIntegrator {
     }
 
     /// Limits of the jump besides its error. Every jump wears in the increments of one cycle: nothing is extrapolated in a groove.
-    fn stroke(&self) -> Stroke {
+    pub(super) fn stroke(&self) -> Stroke {
         let amplitude = self.plane.motion.amplitude_mm().abs();
         let half_width = self.contact.planes.mean_half_width;
         let mut stroke = Stroke::new(
@@ -106,7 +98,7 @@ impl ExtrudedIntegrator {
     }
 
     /// Increments and replays of a cycle.
-    pub(super) fn cycle_plan(&self, cycles: Cycles) -> CyclePlan {
+    pub(super) fn plan(&self, cycles: Cycles) -> CyclePlan {
         let followed = Followed {
             half_width: self.contact.planes.mean_half_width,
             single: self.single_cycle_half_width(),

@@ -1,8 +1,9 @@
 //! Inputs of the schedule of a run: the jump that the worst leading station allows, and the increments that the finest one needs.
 
-use super::LineIntegrator;
+use super::LineContact;
 use crate::law::elastic::contact_modulus;
 use crate::scene::{LineShape, Motion};
+use crate::schedule::increments;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
 use crate::schedule::stroke::{Movement, Stroke};
 use crate::station::section::Station;
@@ -12,9 +13,9 @@ use crate::station::state::StationState;
 /// root of its load, and what long increments leave with the square of their length over it: below it they leave as much of a smaller depth.
 const LEADING: f64 = 0.5;
 
-impl LineIntegrator {
+impl LineContact {
     /// The motion of a section across the line.
-    pub(super) fn motion(&self, station: usize) -> Motion {
+    fn motion_of(&self, station: usize) -> Motion {
         let place = &self.line.stations[station].place;
         Motion::Reciprocating {
             amplitude_mm: place.amplitude_mm(self.amplitude_mm.abs()),
@@ -22,9 +23,14 @@ impl LineIntegrator {
         }
     }
 
-    pub(super) fn largest(&self, of: impl Fn(&Self, usize) -> usize) -> usize {
-        let numbers = (0..self.line.stations.len()).map(|j| of(self, j));
-        numbers.fold(1, usize::max)
+    /// Increments of a cycle for the unworn contacts: those of the station that needs most.
+    pub(super) fn most_increments(&self) -> usize {
+        let stations = self.line.stations.iter().enumerate();
+        let counts = stations.map(|(j, station)| {
+            let half_width = station.state.mean_half_width;
+            increments::count(self.motion_of(j), &self.plane.accuracy, half_width, false)
+        });
+        counts.fold(1, usize::max)
     }
 
     /// Returns `true` if a station decides on the schedule: of a ring all do, whose loads change within a stroke; of a straight line those that carry
@@ -39,7 +45,7 @@ impl LineIntegrator {
     }
 
     /// The jump that the leading stations allow.
-    pub(super) fn next_jump(&mut self, remaining: u64) -> u64 {
+    pub(super) fn jump_of_leading(&mut self, remaining: u64) -> u64 {
         let mut jump = remaining;
         for j in 0..self.line.stations.len() {
             let stroke = self.stroke(j);
@@ -72,7 +78,7 @@ impl LineIntegrator {
     }
 
     /// Increments and replays of a cycle: those of the leading station that needs most.
-    pub(super) fn cycle_plan(&self, cycles: Cycles) -> CyclePlan {
+    pub(super) fn plan_of_leading(&self, cycles: Cycles) -> CyclePlan {
         let leading = (0..self.line.stations.len()).filter(|j| self.leads(*j));
         let plans = leading.map(|j| self.plan_of(j, cycles));
         plans
@@ -84,7 +90,7 @@ impl LineIntegrator {
     fn stroke(&self, station: usize) -> Stroke {
         let found = &self.line.stations[station];
         let state = &found.state;
-        let amplitude = self.motion(station).amplitude_mm();
+        let amplitude = self.motion_of(station).amplitude_mm();
         let half_width = state.mean_half_width.max(state.unworn_half_width);
         let (slider, receptacle) = (self.plane.slider.elastic, self.plane.receptacle.elastic);
         let mut stroke = Stroke::new(
@@ -111,7 +117,7 @@ impl LineIntegrator {
             single: state.neutral.half_width.max(state.unworn_half_width),
             sticks: false,
         };
-        let (motion, stroke) = (self.motion(station), self.stroke(station));
+        let (motion, stroke) = (self.motion_of(station), self.stroke(station));
         CyclePlan::new(
             motion,
             &self.plane.accuracy,

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use super::Station;
 use crate::ale;
-use crate::along_line::{self, SectionsError};
+use crate::along_line::{SectionsError, WornSection};
 use crate::change::Change;
-use crate::law::surface::{self, SurfaceWear};
+use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::model::ZONE_WIDENING;
 use crate::scene::Accuracy;
@@ -15,46 +15,23 @@ use crate::sides::{Side, Sides};
 use crate::station::meshed::Section;
 
 impl Station {
-    /// Integrals of the worn depths, mm^2.
-    pub(in crate::station) fn worn_section(&self) -> Sides<f64> {
-        Sides::from_fn(|side| {
-            let widths = &self.section.condensed.operators.of(side).widths;
-            let nodes = self.state.depth.of(side).iter().zip(widths);
-            nodes.map(|(depth, width)| depth * width).sum()
-        })
-    }
-
-    /// |worn area of the profile - integral of the wear rate| over the latter, of the worse side.
-    pub(in crate::station) fn worn_area_residual(&self) -> f64 {
-        along_line::worn_area_residual(self.worn_section(), self.state.worn_area)
-    }
-
-    /// Depth of the receptacle's groove below the higher one of its ends, mm.
-    pub(in crate::station) fn groove_mm(&self) -> f64 {
-        along_line::groove_mm(&self.state.depth.receptacle)
-    }
-
-    /// Returns `true` if a body is nearly consumed.
-    pub(in crate::station) fn is_worn_through(&self) -> bool {
-        self.spines.are_worn_through(&self.state.depth)
-    }
-
-    /// Cycles until a body is nearly consumed or the groove is as deep as a radius in mm, at the present rate.
-    pub(in crate::station) fn cycles_left(&self, radius_mm: f64) -> f64 {
-        let (wear, equivalent) = (&self.interface.wear, self.state.jump.rates());
-        let rates = Sides::from_fn(|side| {
-            let depth = self.state.depth.of(side);
-            surface::at_relative_rates(*wear.of(side), equivalent.of(side), depth)
-        });
-        let fastest = rates
-            .receptacle
-            .iter()
-            .fold(f64::MIN_POSITIVE, |most, rate| rate.max(most));
-        let groove = (radius_mm - self.groove_mm()) / fastest;
-        let rates = rates.as_ref().map(|rates| &rates[..]);
-        self.spines
-            .cycles_left(&self.state.depth, rates)
-            .min(groove.max(0.0))
+    /// The section as worn now, for the places of the nodes of each body, mm.
+    pub(in crate::station) fn worn<'a>(&'a self, x_mm: Sides<&'a [f64]>) -> WornSection<'a> {
+        let state = &self.state;
+        let operators = self.section.condensed.operators.as_ref();
+        WornSection {
+            at: self.place.at,
+            weight_mm: self.place.weight_mm,
+            x_mm,
+            widths_mm: operators.map(|body| &body.widths[..]),
+            depth: &state.depth,
+            rates: state.jump.rates(),
+            worn_area: state.worn_area,
+            path: state.path,
+            energy: state.energy,
+            neutral: state.neutral,
+            spines: &self.spines,
+        }
     }
 
     /// Largest wear rates from the surfaces down to the worn depths, 1/MPa.
