@@ -47,16 +47,12 @@ impl WornSection<'_> {
 }
 
 /// A contact in sections along a line.
-pub(crate) trait SectionedContact: Send {
-    /// The sections that take increments together.
-    type Sections: Sections;
+pub(crate) trait SectionedContact: Sections + Send {
     /// State of the sections between two computed cycles.
     type State: Send;
     /// Why a cycle has no solution.
     type Error: From<SectionsError> + Send;
 
-    fn sections(&self) -> &Self::Sections;
-    fn sections_mut(&mut self) -> &mut Self::Sections;
     /// The plane section.
     fn plane(&self) -> &Scene;
     /// Laws and supports of the sections.
@@ -86,11 +82,7 @@ pub(crate) trait SectionedContact: Send {
     /// A section that cannot be meshed or condensed.
     fn widen(&mut self, error: &Self::Error) -> Result<bool, Self::Error>;
     /// The error of an increment after so many cycles.
-    fn failure(
-        &self,
-        cycle: u64,
-        failed: FailedIncrement<<Self::Sections as Sections>::Error>,
-    ) -> Self::Error;
+    fn failure(&self, cycle: u64, failed: FailedIncrement<Self::Unsolved>) -> Self::Error;
 
     /// The state after the last cycle.
     fn state(&self) -> Self::State;
@@ -107,7 +99,7 @@ pub(crate) trait SectionedContact: Send {
     /// Increments and replays of a cycle.
     fn cycle_plan(&self, cycles: Cycles) -> CyclePlan;
     /// Measures the error of a jump; a shorter one where it is too large, with the control as before the jump.
-    fn rejected(&mut self, before: &<Self::Sections as Sections>::Saved, jump: u64) -> Option<u64>;
+    fn rejected(&mut self, before: &Self::Saved, jump: u64) -> Option<u64>;
     /// Limits the next jump.
     fn limit(&mut self, most: u64);
     /// Largest estimated relative error of the wear of a section in the last jump.

@@ -2,7 +2,7 @@
 
 use super::contact::SectionedContact;
 use super::record::LineRecord;
-use super::slide::{Sections, slide};
+use super::slide::slide;
 use super::state::{Progress, SectionsState};
 use crate::number::real_cycles;
 use crate::schedule::attempts::{Attempts, Remedy, in_wide_zones, longest_accepted_jump};
@@ -51,10 +51,7 @@ impl<C: SectionedContact> SectionsIntegrator<C> {
             iterations: 0,
             ..integrator.before()
         };
-        let neutral = integrator
-            .contact
-            .sections_mut()
-            .contacts_at(Position::Neutral);
+        let neutral = integrator.contact.contacts_at(Position::Neutral);
         integrator.take_record(LineRecord {
             positions: vec![neutral],
             ..LineRecord::default()
@@ -137,7 +134,7 @@ impl<C: SectionedContact> SectionsIntegrator<C> {
         replays: &ReplayPlan,
     ) -> Result<LineRecord, C::Error> {
         let done = self.progress.done;
-        slide(self.contact.sections_mut(), steps, cycles, replays)
+        slide(&mut self.contact, steps, cycles, replays)
             .map_err(|failed| self.contact.failure(done, failed))
     }
 
@@ -173,7 +170,7 @@ impl<C: SectionedContact> SectionsIntegrator<C> {
 }
 
 impl<C: SectionedContact> Attempts for SectionsIntegrator<C> {
-    type Saved = <C::Sections as Sections>::Saved;
+    type Saved = C::Saved;
     type Record = LineRecord;
     type Error = C::Error;
 
@@ -189,11 +186,11 @@ impl<C: SectionedContact> Attempts for SectionsIntegrator<C> {
     }
 
     fn save(&self) -> Self::Saved {
-        self.contact.sections().save()
+        self.contact.save()
     }
 
     fn go_back(&mut self, before: &Self::Saved) {
-        self.contact.sections_mut().go_back(before);
+        self.contact.go_back(before);
     }
 
     fn remedy(&mut self, error: &C::Error) -> Result<Remedy, C::Error> {

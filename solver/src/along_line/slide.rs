@@ -15,7 +15,7 @@ pub(crate) type SectionsIncrement = Increment<IncrementNumber>;
 /// Sections along a line that take increments together.
 pub(crate) trait Sections {
     /// Why an increment has no solution.
-    type Error: IncrementError;
+    type Unsolved: IncrementError;
     /// A copy of what increments change.
     type Saved;
     /// Retries of an increment.
@@ -25,7 +25,7 @@ pub(crate) trait Sections {
     ///
     /// # Errors
     /// An increment without a solution; the state is then the one before.
-    fn advance(&mut self, increment: SectionsIncrement) -> Result<(), Self::Error>;
+    fn advance(&mut self, increment: SectionsIncrement) -> Result<(), Self::Unsolved>;
 
     /// Takes the normals of the surfaces as worn now.
     fn update_slopes(&mut self);
@@ -75,7 +75,7 @@ pub(crate) fn slide<S: Sections>(
     steps: &[Step],
     cycles: f64,
     replays: &ReplayPlan,
-) -> Result<LineRecord, FailedIncrement<S::Error>> {
+) -> Result<LineRecord, FailedIncrement<S::Unsolved>> {
     let mut starts = vec![WarmStarts::default(); sections.contacts().count()];
     let mut half_widths = vec![MeanHalfWidth::default(); sections.half_widths().len()];
     let (mut record, mut replayed) = (LineRecord::default(), Vec::new());
@@ -135,6 +135,6 @@ fn replay<S: Sections>(
 fn retried<S: Sections>(
     sections: &mut S,
     increment: SectionsIncrement,
-) -> Result<(), FailedIncrement<S::Error>> {
+) -> Result<(), FailedIncrement<S::Unsolved>> {
     halve_and_retry(increment, S::RETRY, |part| sections.advance(part))
 }

@@ -1,7 +1,8 @@
 //! Increments of a computed cycle: all planes take them together.
 
 use super::bodies::Bodies;
-use super::state::{Effort, PlaneState, Planes};
+use super::scene::ExtrudedScene;
+use super::state::{CommonPlaneState, Effort, PlaneState, Planes};
 use crate::ale::Spines;
 use crate::along_line::{PositionContacts, Sections, SectionsIncrement};
 use crate::contact::planes::{Extruded, ExtrudedSolver, PlaneWear, Slide, Solved};
@@ -10,15 +11,20 @@ use crate::cycle::retry::{RETRY, RetryPolicy};
 use crate::cycle::{Neutral, WarmStarts, wear_limit};
 use crate::model::Interface;
 use crate::number::count;
+use crate::scene::Scene;
 use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
 
-/// Both bodies in contact.
-pub(crate) struct Contact {
+/// A contact of extruded bodies.
+pub(crate) struct ExtrudedContact {
+    pub(super) scene: ExtrudedScene,
+    /// The plane section.
+    pub(super) plane: Scene,
     pub(super) bodies: Bodies,
     pub(super) interface: Interface,
     pub(super) spines: Spines,
     pub(super) planes: Planes,
+    pub(super) common: CommonPlaneState,
     pub(super) effort: Effort,
     slopes: Vec<Sides<Vec<f64>>>,
     solver: ExtrudedSolver,
@@ -34,9 +40,9 @@ pub(crate) struct SavedPlanes {
     effort: Effort,
 }
 
-impl Contact {
+impl ExtrudedContact {
     /// Unloaded, unworn bodies.
-    pub(super) fn new(bodies: Bodies) -> Self {
+    pub(super) fn new(scene: &ExtrudedScene, plane: Scene, bodies: Bodies) -> Self {
         let (sections, interface) = (&bodies.operators.sections, bodies.unworn().interface);
         let planes = bodies.shares.len();
         let contact = ContactState::untouched(sections, interface.slave);
@@ -51,6 +57,9 @@ impl Contact {
         };
         Self {
             interface,
+            scene: scene.clone(),
+            plane,
+            common: CommonPlaneState::default(),
             spines: Spines::of(bodies.unworn()),
             bodies,
             planes: Planes {
@@ -65,20 +74,6 @@ impl Contact {
             next: vec![contact; planes],
             worn: vec![PlaneWear::default(); planes],
         }
-    }
-
-    /// Applies the load at the neutral position without sliding.
-    ///
-    /// # Errors
-    /// [`ContactError`] if there is no equilibrium.
-    pub(super) fn apply_load(&mut self) -> Result<(), ContactError> {
-        self.update_slopes();
-        self.advance(SectionsIncrement::new(0.0, 0.0))?;
-        for contact in &mut self.planes.contacts {
-            contact.reference_height = Some(contact.height);
-        }
-        self.planes.mean_half_width = self.half_width();
-        Ok(())
     }
 
     /// Force of the slider on the receptacle along the motion, mean over the width, N/mm.
@@ -148,8 +143,8 @@ impl Contact {
     }
 }
 
-impl Sections for Contact {
-    type Error = ContactError;
+impl Sections for ExtrudedContact {
+    type Unsolved = ContactError;
     type Saved = SavedPlanes;
     const RETRY: RetryPolicy = RETRY;
 

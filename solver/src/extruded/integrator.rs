@@ -6,11 +6,14 @@ mod report;
 use std::sync::Arc;
 
 use super::bodies::Bodies;
-use super::cycle::{Contact, SavedPlanes};
+use super::cycle::{ExtrudedContact, SavedPlanes};
 use super::error::ExtrudedError;
 use super::scene::ExtrudedScene;
-use super::state::{CommonPlaneState, ExtrudedState, PlanesState};
-use crate::along_line::{Along, SectionedContact, SectionsError, SectionsIntegrator, WornSection};
+use super::state::{ExtrudedState, PlanesState};
+use crate::along_line::{
+    Along, SectionedContact, Sections, SectionsError, SectionsIncrement, SectionsIntegrator,
+    WornSection,
+};
 use crate::contact::ContactError;
 use crate::cycle::retry::FailedIncrement;
 use crate::cycle::{Checks, Neutral};
@@ -21,15 +24,6 @@ use crate::schedule::increments;
 use crate::schedule::plan::{CyclePlan, Cycles};
 use crate::sides::Sides;
 use crate::threads::Threads;
-
-/// A contact of extruded bodies.
-pub(crate) struct ExtrudedContact {
-    scene: ExtrudedScene,
-    /// The plane section.
-    plane: Scene,
-    contact: Contact,
-    common: CommonPlaneState,
-}
 
 /// Computes the cycles of extruded bodies.
 pub(crate) type ExtrudedIntegrator = SectionsIntegrator<ExtrudedContact>;
@@ -68,34 +62,20 @@ impl ExtrudedContact {
         if plane.cycles > 0 {
             scene.check_slip()?;
         }
-        Ok(Self {
-            scene: scene.clone(),
-            plane,
-            contact: Contact::new(Bodies::new(scene, built)?),
-            common: CommonPlaneState::default(),
-        })
+        Ok(Self::new(scene, plane, Bodies::new(scene, built)?))
     }
 }
 
 impl SectionedContact for ExtrudedContact {
-    type Sections = Contact;
     type State = PlanesState;
     type Error = ExtrudedError;
-
-    fn sections(&self) -> &Contact {
-        &self.contact
-    }
-
-    fn sections_mut(&mut self) -> &mut Contact {
-        &mut self.contact
-    }
 
     fn plane(&self) -> &Scene {
         &self.plane
     }
 
     fn interface(&self) -> &Interface {
-        &self.contact.interface
+        &self.interface
     }
 
     fn motion(&self) -> Motion {
@@ -111,29 +91,34 @@ impl SectionedContact for ExtrudedContact {
     }
 
     fn apply_load(&mut self) -> Result<(), ExtrudedError> {
-        let loaded = self.contact.apply_load();
+        self.update_slopes();
+        let loaded = self.advance(SectionsIncrement::new(0.0, 0.0));
         loaded.map_err(|source| {
             let halvings = 0;
             self.failure(0, FailedIncrement { halvings, source })
         })?;
-        self.common.unworn_half_width = self.contact.planes.mean_half_width;
+        for contact in &mut self.planes.contacts {
+            contact.reference_height = Some(contact.height);
+        }
+        self.planes.mean_half_width = self.half_width();
+        self.common.unworn_half_width = self.planes.mean_half_width;
         Ok(())
     }
 
     fn first_increments(&self) -> usize {
-        let half_width = self.contact.planes.mean_half_width;
+        let half_width = self.planes.mean_half_width;
         let (motion, accuracy) = (self.plane.motion, &self.plane.accuracy);
         increments::count(motion, accuracy, half_width, false)
     }
 
     fn follow_wear(&mut self) -> Result<u64, ExtrudedError> {
-        let (bodies, states) = (&self.contact.bodies, &self.contact.planes.states);
+        let (bodies, states) = (&self.bodies, &self.planes.states);
         let depths = || states.iter().map(|state| &state.depth);
         if !bodies.have_drifted(depths(), &self.plane.accuracy) {
             return Ok(0);
         }
         self.common.built = depths().cloned().collect();
-        self.contact.bodies.follow(&self.common)?;
+        self.bodies.follow(&self.common)?;
         Ok(1)
     }
 
@@ -146,7 +131,7 @@ impl SectionedContact for ExtrudedContact {
             return Ok(false);
         };
         self.common.widenings += 1;
-        self.contact.bodies.follow(&self.common)?;
+        self.bodies.follow(&self.common)?;
         Ok(true)
     }
 
@@ -162,21 +147,21 @@ impl SectionedContact for ExtrudedContact {
 
     fn state(&self) -> PlanesState {
         PlanesState {
-            planes: self.contact.planes.clone(),
+            planes: self.planes.clone(),
             common: self.common.clone(),
-            effort: self.contact.effort,
+            effort: self.effort,
         }
     }
 
     fn enter(&mut self, state: &PlanesState) -> Result<(), ExtrudedError> {
-        self.contact.planes.clone_from(&state.planes);
-        self.contact.effort = state.effort;
+        self.planes.clone_from(&state.planes);
+        self.effort = state.effort;
         self.common.clone_from(&state.common);
-        self.contact.bodies.follow(&self.common)
+        self.bodies.follow(&self.common)
     }
 
     fn take_neutral(&mut self, found: &[Neutral]) {
-        for (state, found) in self.contact.planes.states.iter_mut().zip(found) {
+        for (state, found) in self.planes.states.iter_mut().zip(found) {
             state.neutral = *found;
         }
     }
@@ -207,20 +192,20 @@ impl SectionedContact for ExtrudedContact {
     }
 
     fn solves(&self) -> (usize, usize) {
-        let effort = &self.contact.effort;
+        let effort = &self.effort;
         (effort.increments, effort.iterations)
     }
 
     fn checks(&self) -> Checks {
-        self.contact.effort.checks
+        self.effort.checks
     }
 
     fn worn(&self) -> Vec<WornSection<'_>> {
-        let bodies = &self.contact.bodies;
+        let bodies = &self.bodies;
         let sections = bodies.operators.sections.as_ref();
         let rates = self.common.jump.rates();
         let width = self.scene.width_mm;
-        let states = self.contact.planes.states.iter().enumerate();
+        let states = self.planes.states.iter().enumerate();
         let places = bodies.planes.z().iter().zip(&bodies.shares);
         let planes = states.zip(places);
         planes
@@ -239,7 +224,7 @@ impl SectionedContact for ExtrudedContact {
                 path: state.path,
                 energy: state.energy,
                 neutral: state.neutral,
-                spines: &self.contact.spines,
+                spines: &self.spines,
             })
             .collect()
     }

@@ -1,6 +1,10 @@
 //! Increments of a computed cycle: all stations take the same ones, and halve them together.
 
+use std::sync::Arc;
+
 use super::height::Height;
+use super::meshed::Section;
+use super::scene::StationScene;
 use super::section::Station;
 use super::state::{CommonLineState, StationState};
 use super::top::{Carrier, Unsolved};
@@ -8,13 +12,21 @@ use crate::along_line::{PositionContacts, Sections, SectionsIncrement};
 use crate::contact::ContactState;
 use crate::cycle::WarmStarts;
 use crate::cycle::retry::{IncrementError, RETRY, RetryPolicy};
+use crate::scene::Scene;
 use crate::schedule::step::Position;
+use crate::threads::Threads;
 
-/// The stations on their carrier, with the slider at a place.
-pub(crate) struct Line {
+/// A contact along a line in stations on their carrier.
+pub(crate) struct LineContact {
+    pub(super) scene: StationScene,
+    /// The plane section under the mean line load.
+    pub(super) plane: Scene,
+    pub(super) amplitude_mm: f64,
+    pub(super) unworn: Arc<Section>,
     pub(super) carrier: Carrier,
     pub(super) stations: Vec<Station>,
     pub(super) common: CommonLineState,
+    pub(super) threads: Arc<Threads>,
 }
 
 /// A copy of what increments change.
@@ -25,8 +37,8 @@ pub(crate) struct SavedLine {
     slider_x: f64,
 }
 
-impl Sections for Line {
-    type Error = Unsolved;
+impl Sections for LineContact {
+    type Unsolved = Unsolved;
     type Saved = SavedLine;
     /// Sections repeat a solve from the last contact one by one.
     const RETRY: RetryPolicy = RetryPolicy {

@@ -6,7 +6,7 @@ mod report;
 use std::sync::Arc;
 
 use super::coupling::Coupling;
-use super::cycle::{Line, SavedLine};
+use super::cycle::{LineContact, SavedLine};
 use super::error::StationError;
 use super::height::Height;
 use super::meshed::Section;
@@ -27,17 +27,6 @@ use crate::model::{self, Interface};
 use crate::scene::{Motion, Scene, Top};
 use crate::schedule::plan::{CyclePlan, Cycles};
 use crate::threads::Threads;
-
-/// A contact along a line in stations.
-pub(crate) struct LineContact {
-    scene: StationScene,
-    /// The plane section under the mean line load.
-    plane: Scene,
-    amplitude_mm: f64,
-    unworn: Arc<Section>,
-    line: Line,
-    threads: Arc<Threads>,
-}
 
 /// Computes the cycles of a contact along a line.
 pub(crate) type LineIntegrator = SectionsIntegrator<LineContact>;
@@ -85,16 +74,14 @@ impl LineContact {
             Station::new(place, &unworn, state)
         });
         Ok(Self {
-            line: Line {
-                carrier: Carrier {
-                    top: scene.top,
-                    coupling,
-                    force_n: scene.force_n,
-                    spring_n_per_mm: spring * scene.line.length_mm(),
-                },
-                stations: stations.collect(),
-                common: CommonLineState::default(),
+            carrier: Carrier {
+                top: scene.top,
+                coupling,
+                force_n: scene.force_n,
+                spring_n_per_mm: spring * scene.line.length_mm(),
             },
+            stations: stations.collect(),
+            common: CommonLineState::default(),
             scene: scene.clone(),
             plane,
             amplitude_mm,
@@ -110,9 +97,8 @@ impl LineContact {
             lemke: true,
             ..SectionsIncrement::new(0.0, 0.0)
         };
-        let line = &mut self.line;
         if self.scene.top != Top::Even {
-            let first = &mut line.stations[0];
+            let first = &mut self.stations[0];
             first
                 .solve(first_load, None, None)
                 .map_err(|source| SectionsError::Contact {
@@ -121,10 +107,10 @@ impl LineContact {
                     halvings: 0,
                     source,
                 })?;
-            line.common.height = Height::at(first.attempted_height());
+            self.common.height = Height::at(first.attempted_height());
         }
-        line.carrier
-            .advance(&mut line.stations, &mut line.common.height, first_load)
+        self.carrier
+            .advance(&mut self.stations, &mut self.common.height, first_load)
             .map_err(|source| {
                 self.failure(
                     0,
@@ -134,8 +120,8 @@ impl LineContact {
                     },
                 )
             })?;
-        self.line.common.height.loaded();
-        for station in &mut self.line.stations {
+        self.common.height.loaded();
+        for station in &mut self.stations {
             station.loaded();
         }
         Ok(())
@@ -144,7 +130,7 @@ impl LineContact {
     /// Builds the sections of the present states.
     fn build(&mut self) -> Result<(), SectionsError> {
         let unworn = &self.unworn;
-        for_each(&mut self.line.stations, |_, station| {
+        for_each(&mut self.stations, |_, station| {
             station.follow_state(unworn)
         })
         .map_err(|(_, error)| error)
@@ -152,17 +138,8 @@ impl LineContact {
 }
 
 impl SectionedContact for LineContact {
-    type Sections = Line;
     type State = StationsState;
     type Error = StationError;
-
-    fn sections(&self) -> &Line {
-        &self.line
-    }
-
-    fn sections_mut(&mut self) -> &mut Line {
-        &mut self.line
-    }
 
     fn plane(&self) -> &Scene {
         &self.plane
@@ -185,9 +162,9 @@ impl SectionedContact for LineContact {
     }
 
     fn apply_load(&mut self) -> Result<(), StationError> {
-        self.line.stations.iter_mut().for_each(Station::hold);
+        self.stations.iter_mut().for_each(Station::hold);
         let loaded = self.apply_load_once();
-        self.line.stations.iter_mut().for_each(Station::release);
+        self.stations.iter_mut().for_each(Station::release);
         loaded
     }
 
@@ -197,7 +174,7 @@ impl SectionedContact for LineContact {
 
     fn follow_wear(&mut self) -> Result<u64, StationError> {
         let mut drifted = 0;
-        for station in &mut self.line.stations {
+        for station in &mut self.stations {
             drifted += u64::from(station.drifts(&self.plane.accuracy));
         }
         self.build()?;
@@ -214,7 +191,7 @@ impl SectionedContact for LineContact {
         else {
             return Ok(false);
         };
-        self.line.stations[station].widen();
+        self.stations[station].widen();
         self.build()?;
         Ok(true)
     }
@@ -243,15 +220,15 @@ impl SectionedContact for LineContact {
     }
 
     fn state(&self) -> StationsState {
-        let stations = self.line.stations.iter();
+        let stations = self.stations.iter();
         StationsState {
             stations: stations.map(|station| station.state.clone()).collect(),
-            common: self.line.common.clone(),
+            common: self.common.clone(),
         }
     }
 
     fn enter(&mut self, state: &StationsState) -> Result<(), StationError> {
-        let stations = &mut self.line.stations;
+        let stations = &mut self.stations;
         debug_assert_eq!(
             state.stations.len(),
             stations.len(),
@@ -260,12 +237,12 @@ impl SectionedContact for LineContact {
         for (station, state) in stations.iter_mut().zip(&state.stations) {
             station.state = state.clone();
         }
-        self.line.common = state.common.clone();
+        self.common = state.common.clone();
         Ok(self.build()?)
     }
 
     fn take_neutral(&mut self, found: &[Neutral]) {
-        for (station, found) in self.line.stations.iter_mut().zip(found) {
+        for (station, found) in self.stations.iter_mut().zip(found) {
             station.state.neutral = *found;
         }
     }
@@ -281,35 +258,35 @@ impl SectionedContact for LineContact {
     fn rejected(&mut self, before: &SavedLine, jump: u64) -> Option<u64> {
         self.measure_jump(&before.stations, jump);
         let shorter = self.shorter_jump(jump)?;
-        for (station, state) in self.line.stations.iter_mut().zip(&before.stations) {
+        for (station, state) in self.stations.iter_mut().zip(&before.stations) {
             station.state.jump = state.jump.clone();
         }
         Some(shorter)
     }
 
     fn limit(&mut self, most: u64) {
-        for station in &mut self.line.stations {
+        for station in &mut self.stations {
             station.state.jump.limit(most);
         }
     }
 
     fn jump_error(&self) -> f64 {
-        let stations = self.line.stations.iter();
+        let stations = self.stations.iter();
         let errors = stations.map(|station| station.state.jump.error);
         errors.fold(0.0, f64::max)
     }
 
     fn solves(&self) -> (usize, usize) {
-        (self.line.common.increments, self.line.common.iterations)
+        (self.common.increments, self.common.iterations)
     }
 
     fn checks(&self) -> Checks {
         let own = Checks {
-            force_balance: self.line.common.height.imbalance,
-            force_balance_present_normals: self.line.common.imbalance,
+            force_balance: self.common.height.imbalance,
+            force_balance_present_normals: self.common.imbalance,
             ..Checks::default()
         };
-        let stations = self.line.stations.iter();
+        let stations = self.stations.iter();
         stations.fold(own, |worst, station| {
             Checks::worse_of(worst, station.state.checks)
         })
@@ -318,7 +295,7 @@ impl SectionedContact for LineContact {
     fn worn(&self) -> Vec<WornSection<'_>> {
         let bodies = self.unworn.model.bodies.as_ref();
         let x_mm = bodies.map(|body| body.contact_x());
-        let stations = self.line.stations.iter();
+        let stations = self.stations.iter();
         stations.map(|station| station.worn(x_mm)).collect()
     }
 }

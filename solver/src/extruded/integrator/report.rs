@@ -11,34 +11,29 @@ use crate::sides::{Side, Sides};
 impl ExtrudedIntegrator {
     /// The plane in the middle of the width.
     pub(crate) fn reference(&self) -> usize {
-        self.contact.contact.bodies.planes.count() - 1
+        self.contact.bodies.planes.count() - 1
     }
 
     /// Distance by which the slider has sunk since first touch, by deformation and wear, mm.
     pub(crate) fn approach_mm(&self) -> f64 {
-        -self.contact.contact.planes.contacts[0].height
+        -self.contact.planes.contacts[0].height
     }
 
     /// Pressures at the nodes of the body that carries them, plane by plane, MPa.
     pub(crate) fn pressures_mpa(&self) -> Vec<Vec<f64>> {
-        let contacts = self.contact.contact.planes.contacts.iter();
+        let contacts = self.contact.planes.contacts.iter();
         contacts.map(|contact| contact.pressure.clone()).collect()
     }
 
     /// Node planes, and the section in each of them as when the operators were built, with these.
     pub(crate) fn condensed(&self) -> (&NodePlanes, &[Model], &ExtrudedOperators) {
-        let bodies = &self.contact.contact.bodies;
+        let bodies = &self.contact.bodies;
         (&bodies.planes, &bodies.models, &bodies.operators)
     }
 
     /// Worn depths of each plane, mm.
     pub(crate) fn depths(&self) -> impl Iterator<Item = &Sides<Vec<f64>>> {
-        self.contact
-            .contact
-            .planes
-            .states
-            .iter()
-            .map(|state| &state.depth)
+        self.contact.planes.states.iter().map(|state| &state.depth)
     }
 
     /// Contacts of all planes at the named positions of the last computed cycle.
@@ -51,16 +46,16 @@ impl ExtrudedIntegrator {
 
     /// The body that carries the tractions.
     pub(crate) fn slave(&self) -> Side {
-        self.contact.contact.interface.slave
+        self.contact.interface.slave
     }
 
     /// Degrees of freedom of both meshes, contact elements of the receptacle, and their size in mm.
     pub(crate) fn size(&self) -> (usize, usize, f64) {
-        let model = self.contact.contact.bodies.unworn();
+        let model = self.contact.bodies.unworn();
         let nodes = model.bodies.receptacle.contact_x().len();
         (
-            self.contact.contact.bodies.dofs(),
-            self.contact.contact.bodies.planes.count() * (nodes - 1),
+            self.contact.bodies.dofs(),
+            self.contact.bodies.planes.count() * (nodes - 1),
             model.sizes.contact_element,
         )
     }

@@ -1,11 +1,11 @@
 //! Inputs of the schedule of a run: the jump that the worst leading station allows, and the increments that the finest one needs.
 
-use super::LineContact;
 use crate::law::elastic::contact_modulus;
 use crate::scene::{LineShape, Motion};
 use crate::schedule::increments;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
 use crate::schedule::stroke::{Movement, Stroke};
+use crate::station::cycle::LineContact;
 use crate::station::section::Station;
 use crate::station::state::StationState;
 
@@ -16,7 +16,7 @@ const LEADING: f64 = 0.5;
 impl LineContact {
     /// The motion of a section across the line.
     fn motion_of(&self, station: usize) -> Motion {
-        let place = &self.line.stations[station].place;
+        let place = &self.stations[station].place;
         Motion::Reciprocating {
             amplitude_mm: place.amplitude_mm(self.amplitude_mm.abs()),
             period_s: self.plane.motion.period_s().unwrap_or(1.0),
@@ -25,7 +25,7 @@ impl LineContact {
 
     /// Increments of a cycle for the unworn contacts: those of the station that needs most.
     pub(super) fn most_increments(&self) -> usize {
-        let stations = self.line.stations.iter().enumerate();
+        let stations = self.stations.iter().enumerate();
         let counts = stations.map(|(j, station)| {
             let half_width = station.state.mean_half_width;
             increments::count(self.motion_of(j), &self.plane.accuracy, half_width, false)
@@ -40,17 +40,17 @@ impl LineContact {
             return true;
         }
         let load = |station: &Station| station.state.neutral.load;
-        let largest = self.line.stations.iter().map(load).fold(0.0, f64::max);
-        load(&self.line.stations[station]) >= LEADING * largest
+        let largest = self.stations.iter().map(load).fold(0.0, f64::max);
+        load(&self.stations[station]) >= LEADING * largest
     }
 
     /// The jump that the leading stations allow.
     pub(super) fn jump_of_leading(&mut self, remaining: u64) -> u64 {
         let mut jump = remaining;
-        for j in 0..self.line.stations.len() {
+        for j in 0..self.stations.len() {
             let stroke = self.stroke(j);
             let leads = self.leads(j);
-            let control = &mut self.line.stations[j].state.jump;
+            let control = &mut self.stations[j].state.jump;
             let next = control.next(&self.plane.accuracy, stroke, remaining);
             if leads {
                 jump = jump.min(next);
@@ -61,14 +61,14 @@ impl LineContact {
 
     /// Measures what the next jump depends on, after one from these states.
     pub(super) fn measure_jump(&mut self, before: &[StationState], jump: u64) {
-        for (station, before) in self.line.stations.iter_mut().zip(before) {
+        for (station, before) in self.stations.iter_mut().zip(before) {
             station.measure_jump(&before.depth, jump);
         }
     }
 
     /// A shorter jump where the estimated error of a station whose rate depends on its depth far exceeds what it may be.
     pub(super) fn shorter_jump(&self, jump: u64) -> Option<u64> {
-        let stations = self.line.stations.iter().enumerate();
+        let stations = self.stations.iter().enumerate();
         let shorter = stations.filter(|(_, station)| station.wears_by_depth());
         let shorter = shorter.filter_map(|(j, station)| {
             let control = &station.state.jump;
@@ -79,7 +79,7 @@ impl LineContact {
 
     /// Increments and replays of a cycle: those of the leading station that needs most.
     pub(super) fn plan_of_leading(&self, cycles: Cycles) -> CyclePlan {
-        let leading = (0..self.line.stations.len()).filter(|j| self.leads(*j));
+        let leading = (0..self.stations.len()).filter(|j| self.leads(*j));
         let plans = leading.map(|j| self.plan_of(j, cycles));
         plans
             .reduce(|most, plan| if plan.steps > most.steps { plan } else { most })
@@ -88,7 +88,7 @@ impl LineContact {
 
     /// Limits of a station's jump besides its error. Every jump wears in the increments of one cycle: nothing is extrapolated in a groove.
     fn stroke(&self, station: usize) -> Stroke {
-        let found = &self.line.stations[station];
+        let found = &self.stations[station];
         let state = &found.state;
         let amplitude = self.motion_of(station).amplitude_mm();
         let half_width = state.mean_half_width.max(state.unworn_half_width);
@@ -111,7 +111,7 @@ impl LineContact {
 
     /// Increments and replays of a cycle for a station.
     fn plan_of(&self, station: usize, cycles: Cycles) -> CyclePlan {
-        let state = &self.line.stations[station].state;
+        let state = &self.stations[station].state;
         let followed = Followed {
             half_width: state.mean_half_width,
             single: state.neutral.half_width.max(state.unworn_half_width),

@@ -8,7 +8,7 @@ use crate::sides::{Side, Sides};
 impl LineIntegrator {
     /// The station that touches first: across the motion on a ring, in the middle of a crown, at the lower end of a tilt.
     pub(crate) fn reference(&self) -> usize {
-        let stations = self.contact.line.stations.iter();
+        let stations = self.contact.stations.iter();
         let raised = stations.map(|station| station.place.raised_mm);
         let lowest = raised
             .enumerate()
@@ -28,7 +28,7 @@ impl LineIntegrator {
 
     /// The meshed section of a station with its operators, and its worn depths, mm.
     pub(crate) fn section(&self, station: usize) -> (&Model, &Condensed, &Sides<Vec<f64>>) {
-        let station = &self.contact.line.stations[station];
+        let station = &self.contact.stations[station];
         let section = &station.section;
         (&section.model, &section.condensed, &station.state.depth)
     }
@@ -38,7 +38,7 @@ impl LineIntegrator {
         let model = &self.contact.unworn.model;
         let bodies = &model.bodies;
         let nodes = bodies.receptacle.contact_x().len();
-        let stations = self.contact.line.stations.len();
+        let stations = self.contact.stations.len();
         (
             stations * (bodies.slider.dofs() + bodies.receptacle.dofs()),
             stations * (nodes - 1),
