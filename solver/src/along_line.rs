@@ -8,6 +8,7 @@ mod integrator;
 mod record;
 mod report;
 mod run;
+mod schedule;
 mod slide;
 mod state;
 
@@ -20,6 +21,7 @@ pub use error::SectionsError;
 pub(crate) use integrator::SectionsIntegrator;
 pub(crate) use record::PositionContacts;
 pub use run::SectionsOutcome;
+pub(crate) use schedule::FollowedSection;
 pub(crate) use slide::{Sections, SectionsIncrement};
 pub use state::SectionsState;
 

@@ -167,18 +167,18 @@ impl SectionedContact for ExtrudedContact {
     }
 
     fn next_jump(&mut self, remaining: u64) -> u64 {
-        let (stroke, accuracy) = (self.stroke(), &self.plane.accuracy);
+        let (stroke, accuracy) = (self.followed().stroke(), &self.plane.accuracy);
         self.common.jump.next(accuracy, stroke, remaining)
     }
 
     fn cycle_plan(&self, cycles: Cycles) -> CyclePlan {
-        self.plan(cycles)
+        self.followed().plan(cycles)
     }
 
     fn rejected(&mut self, before: &SavedPlanes, jump: u64) -> Option<u64> {
         let control = self.common.jump.clone();
         self.measure_jump(&before.planes, jump);
-        let shorter = self.shorter_jump(jump)?;
+        let shorter = self.followed().shorter_jump(&self.common.jump, jump)?;
         self.common.jump = control;
         Some(shorter)
     }

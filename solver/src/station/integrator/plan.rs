@@ -1,10 +1,9 @@
 //! Inputs of the schedule of a run: the jump that the worst leading station allows, and the increments that the finest one needs.
 
-use crate::law::elastic::contact_modulus;
+use crate::along_line::FollowedSection;
 use crate::scene::{LineShape, Motion};
 use crate::schedule::increments;
-use crate::schedule::plan::{CyclePlan, Cycles, Followed};
-use crate::schedule::stroke::{Movement, Stroke};
+use crate::schedule::plan::{CyclePlan, Cycles};
 use crate::station::cycle::LineContact;
 use crate::station::section::Station;
 use crate::station::state::StationState;
@@ -14,12 +13,21 @@ use crate::station::state::StationState;
 const LEADING: f64 = 0.5;
 
 impl LineContact {
-    /// The motion of a section across the line.
-    fn motion_of(&self, station: usize) -> Motion {
-        let place = &self.stations[station].place;
-        Motion::Reciprocating {
-            amplitude_mm: place.amplitude_mm(self.amplitude_mm.abs()),
-            period_s: self.plane.motion.period_s().unwrap_or(1.0),
+    /// A section, with its motion across the line.
+    fn followed(&self, station: usize) -> FollowedSection<'_> {
+        let station = &self.stations[station];
+        let state = &station.state;
+        FollowedSection {
+            plane: &self.plane,
+            motion: Motion::Reciprocating {
+                amplitude_mm: station.place.amplitude_mm(self.amplitude_mm.abs()),
+                period_s: self.plane.motion.period_s().unwrap_or(1.0),
+            },
+            wear: self.unworn.model.interface.wear,
+            depth: state.depth.largest_of_each(),
+            unworn_half_width: state.unworn_half_width,
+            neutral_half_width: state.neutral.half_width,
+            mean_half_width: state.mean_half_width,
         }
     }
 
@@ -28,7 +36,12 @@ impl LineContact {
         let stations = self.stations.iter().enumerate();
         let counts = stations.map(|(j, station)| {
             let half_width = station.state.mean_half_width;
-            increments::count(self.motion_of(j), &self.plane.accuracy, half_width, false)
+            increments::count(
+                self.followed(j).motion,
+                &self.plane.accuracy,
+                half_width,
+                false,
+            )
         });
         counts.fold(1, usize::max)
     }
@@ -48,7 +61,7 @@ impl LineContact {
     pub(super) fn jump_of_leading(&mut self, remaining: u64) -> u64 {
         let mut jump = remaining;
         for j in 0..self.stations.len() {
-            let stroke = self.stroke(j);
+            let stroke = self.followed(j).stroke();
             let leads = self.leads(j);
             let control = &mut self.stations[j].state.jump;
             let next = control.next(&self.plane.accuracy, stroke, remaining);
@@ -69,10 +82,9 @@ impl LineContact {
     /// A shorter jump where the estimated error of a station whose rate depends on its depth far exceeds what it may be.
     pub(super) fn shorter_jump(&self, jump: u64) -> Option<u64> {
         let stations = self.stations.iter().enumerate();
-        let shorter = stations.filter(|(_, station)| station.wears_by_depth());
-        let shorter = shorter.filter_map(|(j, station)| {
+        let shorter = stations.filter_map(|(j, station)| {
             let control = &station.state.jump;
-            control.rejected(&self.plane.accuracy, self.stroke(j), jump)
+            self.followed(j).shorter_jump(control, jump)
         });
         shorter.min()
     }
@@ -80,51 +92,9 @@ impl LineContact {
     /// Increments and replays of a cycle: those of the leading station that needs most.
     pub(super) fn plan_of_leading(&self, cycles: Cycles) -> CyclePlan {
         let leading = (0..self.stations.len()).filter(|j| self.leads(*j));
-        let plans = leading.map(|j| self.plan_of(j, cycles));
+        let plans = leading.map(|j| self.followed(j).plan(cycles));
         plans
             .reduce(|most, plan| if plan.steps > most.steps { plan } else { most })
-            .unwrap_or_else(|| self.plan_of(0, cycles))
-    }
-
-    /// Limits of a station's jump besides its error. Every jump wears in the increments of one cycle: nothing is extrapolated in a groove.
-    fn stroke(&self, station: usize) -> Stroke {
-        let found = &self.stations[station];
-        let state = &found.state;
-        let amplitude = self.motion_of(station).amplitude_mm();
-        let half_width = state.mean_half_width.max(state.unworn_half_width);
-        let (slider, receptacle) = (self.plane.slider.elastic, self.plane.receptacle.elastic);
-        let mut stroke = Stroke::new(
-            &self.plane.accuracy.tuning,
-            found.rates(),
-            contact_modulus(slider, receptacle),
-            Movement {
-                amplitude,
-                half_width: half_width.max(f64::MIN_POSITIVE),
-                travel: 1.0,
-                sticks: false,
-            },
-            self.plane.cycles,
-        );
-        stroke.is_groove = false;
-        stroke
-    }
-
-    /// Increments and replays of a cycle for a station.
-    fn plan_of(&self, station: usize, cycles: Cycles) -> CyclePlan {
-        let state = &self.stations[station].state;
-        let followed = Followed {
-            half_width: state.mean_half_width,
-            single: state.neutral.half_width.max(state.unworn_half_width),
-            sticks: false,
-        };
-        let (motion, stroke) = (self.motion_of(station), self.stroke(station));
-        CyclePlan::new(
-            motion,
-            &self.plane.accuracy,
-            followed,
-            stroke,
-            cycles,
-            false,
-        )
+            .unwrap_or_else(|| self.followed(0).plan(cycles))
     }
 }

@@ -6,12 +6,10 @@ use super::Station;
 use crate::ale;
 use crate::along_line::{SectionsError, WornSection};
 use crate::change::Change;
-use crate::law::surface::SurfaceWear;
-use crate::law::wear::LocalState;
 use crate::model::ZONE_WIDENING;
 use crate::scene::Accuracy;
 use crate::schedule::equivalent_wear::EquivalentWear;
-use crate::sides::{Side, Sides};
+use crate::sides::Sides;
 use crate::station::meshed::Section;
 
 impl Station {
@@ -32,21 +30,6 @@ impl Station {
             neutral: state.neutral,
             spines: &self.spines,
         }
-    }
-
-    /// Largest wear rates from the surfaces down to the worn depths, 1/MPa.
-    pub(in crate::station) fn rates(&self) -> Sides<f64> {
-        let wear = self.interface.wear.zip(self.state.depth.largest_of_each());
-        wear.map(|(wear, depth)| {
-            wear.map_or(0.0, |wear| wear.largest_rate(depth, LocalState::default()))
-        })
-    }
-
-    /// Returns `true` if a rate depends on the worn depth.
-    pub(in crate::station) fn wears_by_depth(&self) -> bool {
-        let wear = self.interface.wear;
-        let by_depth = |side| wear.of(side).is_some_and(SurfaceWear::depends_on_depth);
-        Side::BOTH.into_iter().any(by_depth)
     }
 
     /// Measures what the next jump depends on, after one from these depths that all stations share.
