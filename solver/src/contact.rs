@@ -4,6 +4,7 @@ pub mod area;
 pub mod line;
 pub mod planes;
 
+pub(crate) use line::slopes_of_both;
 pub use line::{
     ContactError, ContactState, Displacement, Increment, Pair, Solver, Status, Surfaces, WarmStart,
     Work, slopes,

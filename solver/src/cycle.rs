@@ -181,7 +181,7 @@ impl<'a> Integrator<'a> {
 
     /// Updates what follows from the worn surfaces, and the friction of so many cycles from now.
     fn update_surfaces(&mut self, state: &CycleState, cycles: f64) {
-        self.slope = self.slopes(state);
+        self.slope = contact::slopes_of_both(self.pair.operators, &state.depth);
         self.update_friction(state, cycles);
     }
 
@@ -196,12 +196,6 @@ impl<'a> Integrator<'a> {
             slope: slope.as_slices(),
             friction: nodal_friction.as_ref().map(|nodes| nodes.as_deref()),
         }
-    }
-
-    /// Slopes of both surfaces as worn in a state.
-    fn slopes(&self, state: &CycleState) -> Sides<Vec<f64>> {
-        let operators = self.pair.operators;
-        Sides::from_fn(|side| contact::slopes(operators.of(side), state.depth.of(side), side))
     }
 
     /// Displaces the slider to the turning point where cycles begin, without wear.

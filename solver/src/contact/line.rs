@@ -49,6 +49,7 @@ pub(crate) use active_window::CANDIDATE_GAP;
 pub use error::ContactError;
 pub use increment::Solver;
 pub use outcome::Increment;
+pub(crate) use pair::slopes_of_both;
 pub use pair::{Displacement, Pair, Surfaces, WarmStart, slopes};
 pub(crate) use problem::GAP_TOLERANCE;
 pub use state::ContactState;

@@ -1,7 +1,7 @@
 //! An increment: the contact solve at the temperature and the pace of its displacement, and what it wears.
 
 use super::{CycleError, CycleState, Integrator, wear_limit};
-use crate::contact::{ContactError, Displacement};
+use crate::contact::{ContactError, Displacement, slopes_of_both};
 use crate::sides::Side;
 
 impl Integrator<'_> {
@@ -82,7 +82,7 @@ impl Integrator<'_> {
 
     /// The balance of forces with the normals of the surfaces as worn now.
     pub(super) fn force_balance_with_present_normals(&mut self, state: &CycleState) -> f64 {
-        let slope = self.slopes(state);
+        let slope = slopes_of_both(self.pair.operators, &state.depth);
         let surfaces = Self::surfaces(&self.nodal_friction, &state.depth, &slope);
         self.solver
             .force_balance_on(&self.pair, &surfaces, &state.contact)

@@ -6,7 +6,7 @@
 use std::mem;
 
 use super::{CycleRecord, CycleState, Integrator, Neutral};
-use crate::contact::{ContactError, ContactState, Displacement, WarmStart};
+use crate::contact::{ContactError, ContactState, Displacement, WarmStart, slopes_of_both};
 use crate::law::surface;
 use crate::schedule::increments::Position;
 
@@ -28,7 +28,7 @@ impl Integrator<'_> {
             .map(|(wear, depth)| surface::depths(wear, depth));
         let mut unskewed = state.clone();
         unskewed.depth.clone_from(&depth);
-        let slope = self.slopes(&unskewed);
+        let slope = slopes_of_both(self.pair.operators, &unskewed.depth);
         let slope_of_cycle = mem::replace(&mut self.slope, slope);
         let mut contacts = record.contacts.iter();
         let leftmost = contacts.find(|(at, _)| *at == Position::Leftmost);

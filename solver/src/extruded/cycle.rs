@@ -6,7 +6,9 @@ use super::state::{CommonPlaneState, Effort, PlaneState, Planes};
 use crate::ale::Spines;
 use crate::along_line::{PositionContacts, Sections, SectionsIncrement};
 use crate::contact::planes::{Extruded, ExtrudedSolver, PlaneWear, Slide, Solved};
-use crate::contact::{self, ContactError, ContactState, Pair, Solver, Surfaces, WarmStart, Work};
+use crate::contact::{
+    ContactError, ContactState, Pair, Solver, Surfaces, WarmStart, Work, slopes_of_both,
+};
 use crate::cycle::retry::{RETRY, RetryPolicy};
 use crate::cycle::{Neutral, WarmStarts, wear_limit};
 use crate::model::Interface;
@@ -188,10 +190,9 @@ impl Sections for ExtrudedContact {
 
     fn update_slopes(&mut self) {
         let sections = &self.bodies.operators.sections;
-        let of_plane = |state: &PlaneState| {
-            Sides::from_fn(|side| contact::slopes(sections.of(side), state.depth.of(side), side))
-        };
-        self.slopes = self.planes.states.iter().map(of_plane).collect();
+        let states = self.planes.states.iter();
+        let slopes = states.map(|state| slopes_of_both(sections, &state.depth));
+        self.slopes = slopes.collect();
     }
 
     fn save(&self) -> SavedPlanes {
@@ -242,10 +243,7 @@ impl Sections for ExtrudedContact {
         let (mut force, mut found) = (0.0, Vec::new());
         let planes = self.planes.states.iter().zip(&self.planes.contacts);
         for ((state, contact), share) in planes.zip(&self.bodies.shares) {
-            let sections = &self.bodies.operators.sections;
-            let slope = Sides::from_fn(|side| {
-                contact::slopes(sections.of(side), state.depth.of(side), side)
-            });
+            let slope = slopes_of_both(pair.operators, &state.depth);
             let surfaces = Surfaces {
                 depth: state.depth.as_slices(),
                 slope: slope.as_slices(),

@@ -9,9 +9,9 @@ use super::place::Place;
 use super::state::StationState;
 use crate::ale::Spines;
 use crate::along_line::SectionsIncrement;
-use crate::condensation::Operators;
 use crate::contact::{
     self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces, WarmStart,
+    slopes_of_both,
 };
 use crate::cycle::{Neutral, wear_limit};
 use crate::model::{Interface, Tangential};
@@ -79,7 +79,7 @@ impl Station {
 
     /// Takes the normals of the surfaces as worn now.
     pub(super) fn update_slopes(&mut self) {
-        self.slope = slopes(&self.section.condensed.operators, &self.state.depth);
+        self.slope = slopes_of_both(&self.section.condensed.operators, &self.state.depth);
     }
 
     /// Lets friction hold the section together where nothing is imposed that could slip.
@@ -276,7 +276,7 @@ impl Station {
         let section = Arc::clone(&self.section);
         let operators = &section.condensed.operators;
         let depth = &self.state.depth;
-        let slope = slopes(operators, depth);
+        let slope = slopes_of_both(operators, depth);
         let surfaces = Surfaces {
             depth: depth.as_slices(),
             slope: slope.as_slices(),
@@ -294,9 +294,4 @@ impl Station {
     pub(super) fn half_width(&self) -> f64 {
         self.state.contact.half_width(&self.pair().slave().x)
     }
-}
-
-/// Slopes of both surfaces as worn to these depths, mm.
-fn slopes(operators: &Operators, depth: &Sides<Vec<f64>>) -> Sides<Vec<f64>> {
-    Sides::from_fn(|side| contact::slopes(operators.of(side), depth.of(side), side))
 }

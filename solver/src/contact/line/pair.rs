@@ -166,3 +166,8 @@ pub fn slopes(body: &BodyOperators, depth: &[f64], side: Side) -> Vec<f64> {
         })
         .collect()
 }
+
+/// Slopes of both surfaces as worn to these depths, mm.
+pub(crate) fn slopes_of_both(operators: &Operators, depth: &Sides<Vec<f64>>) -> Sides<Vec<f64>> {
+    Sides::from_fn(|side| slopes(operators.of(side), depth.of(side), side))
+}
