@@ -1,17 +1,17 @@
 //! Checkpoints: everything that the rest of a run depends on besides its scene.
 
 mod earlier;
-mod finite;
 mod mismatch;
+mod run;
 mod section;
 
 use serde::{Deserialize, Serialize};
 
 pub(crate) use earlier::EarlierRuns;
 pub(crate) use earlier::Finished;
-pub use finite::{ExtrudedRun, FiniteRun, LineRun, PointRun};
 pub use mismatch::CheckpointMismatch;
-pub use section::SectionRun;
+pub use run::{ExtrudedRun, LineRun, PointRun, Run, SectionRun};
+pub use section::SectionState;
 
 /// A run between two computed cycles. It survives serialisation bit for bit in any format that preserves `f64`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -43,7 +43,7 @@ impl Resumable<'_> {
     /// Physical cycles whose results were delivered.
     pub fn cycle(self) -> u64 {
         let (earlier, cycle) = match self {
-            Self::Section(run) => (&run.earlier, run.state.cycle),
+            Self::Section(run) => (&run.earlier, run.state.cycle_state.cycle),
             Self::Point(run) => (&run.earlier, run.state.cycle()),
             Self::Line(run) => (&run.earlier, run.state.cycle()),
             Self::Extruded(run) => (&run.earlier, run.state.cycle()),

@@ -50,6 +50,8 @@ pub(crate) use half_width::MeanHalfWidth;
 use heating::Heating;
 pub use mission_state::BlockWear;
 pub(crate) use mission_state::MissionState;
+pub use motion_history::MotionHistory;
+pub(crate) use motion_history::mean_error;
 use replay::Replays;
 use skew::Passes;
 pub(crate) use skew::Skew;

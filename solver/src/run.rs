@@ -16,7 +16,7 @@ use crate::ale::{self, Spines};
 use crate::change::Change;
 use crate::checkpoint::{Checkpoint, CheckpointMismatch, EarlierRuns, Resumable, SectionRun};
 use crate::condensation::{self, Condensed};
-use crate::cycle::{CycleRecord, Integrator};
+use crate::cycle::{BlockWear, CycleRecord, Integrator};
 use crate::effects::{self, EffectsPlan};
 use crate::model::{self, Model};
 use crate::observer::{Event, Observer, Phase};
@@ -118,8 +118,12 @@ fn proceed(
     observer.on_phase(Phase::Mesh);
     let plan = plan.after(&run.crossings);
     let unworn = model::build(scene, &plan)?;
-    run.check(&unworn, scene.cycles)?;
-    let model = run.model(&unworn)?;
+    let (cycle, cycles) = (run.state.cycle_state.cycle, scene.cycles);
+    if cycle > cycles {
+        return Err(CheckpointMismatch::Beyond { cycle, cycles }.into());
+    }
+    run.state.check(&unworn)?;
+    let model = run.state.model(&unworn)?;
     observer.on_phase(Phase::Condense);
     let condensed = condensation::condense(&model, scene.threads)?;
     advance(scene, plan, model, condensed, run, observer)
@@ -153,8 +157,8 @@ fn advance(
             ControlFlow::Continue(RequiredUpdate::Stiffness) => {}
         }
         observer.on_phase(Phase::Relocate);
-        run.relocated();
-        let moved = run.model(&model)?;
+        run.state.relocated();
+        let moved = run.state.model(&model)?;
         observer.on_phase(Phase::Condense);
         condensed = condensation::renew(&moved, &model, condensed, scene.threads)?;
         model = moved;
@@ -176,11 +180,12 @@ fn integrate(
     let evaluation = resistance::evaluation(scene, plan);
     // Where a limit of the resistance was passed by too much.
     let mut until_limit = u64::MAX;
-    while run.state.cycle < scene.cycles {
-        if run.is_block_done() {
+    while run.state.cycle_state.cycle < scene.cycles {
+        if run.is_block_done(run.state.cycle_state.cycle) {
             return Ok(ControlFlow::Continue(RequiredUpdate::Motion));
         }
-        if model.relocates && ale::has_drifted(model, &run.state.depth, &scene.accuracy) {
+        if model.relocates && ale::has_drifted(model, &run.state.cycle_state.depth, &scene.accuracy)
+        {
             return Ok(ControlFlow::Continue(RequiredUpdate::Stiffness));
         }
         let left = run.block_left().map(|left| blocks[left].motion);
@@ -199,14 +204,15 @@ fn integrate(
                     continue;
                 }
                 Some(RequiredAction::Effects(required)) => {
-                    run.go_back(before, required);
+                    run.state.cycle_state = before;
+                    run.crossings.extend(required);
                     return Ok(ControlFlow::Continue(RequiredUpdate::Effects));
                 }
             }
         }
         until_limit = u64::MAX;
-        let surface = |side| record::worn_surface(model, &run.state, side);
-        run.life.push(scene, run.state.cycle, surface);
+        let surface = |side| record::worn_surface(model, &run.state.cycle_state, side);
+        run.life.push(scene, run.state.cycle_state.cycle, surface);
         if let Some(evaluation) = &evaluation {
             let computed = Computed {
                 evaluation,
@@ -214,7 +220,7 @@ fn integrate(
                 model,
                 condensed,
                 before: &before,
-                after: &run.state,
+                after: &run.state.cycle_state,
             };
             let change = Change {
                 before: &electrical,
@@ -242,14 +248,19 @@ fn deliver(
     observer: &mut dyn Observer,
 ) -> Result<ControlFlow<Outcome>, SolveError> {
     const STOPPED: ControlFlow<Outcome> = ControlFlow::Break(Outcome::Stopped);
-    let report = record::report(scene, model, &run.state, run.electrical.resistance);
-    if run.is_comparable(scene) {
+    let report = record::report(
+        scene,
+        model,
+        &run.state.cycle_state,
+        run.electrical.resistance,
+    );
+    if run.is_comparable(scene, report.cycle) {
         run.compared.push(&report);
     }
     if observer.on(Event::Cycle(&report)).is_break() {
         return Ok(STOPPED);
     }
-    let state = &run.state;
+    let state = &run.state.cycle_state;
     if end.is_some() || scene.output.snapshots_at_cycles.contains(&state.cycle) {
         let snapshot = snapshot(scene, model, condensed, state, record)?;
         if observer.on(Event::Snapshot(&snapshot)).is_break() {
@@ -276,13 +287,14 @@ fn next_block(scene: &Scene, model: &Model, run: &mut SectionRun) {
     let Some(mission) = &mut run.mission else {
         return;
     };
-    mission.next_block(
-        scene,
-        &mut run.state,
-        &model.interface.wear,
-        |state, rates| progress(model, &spines, state, rates),
-        |state, side, part| record::worn_surface(model, state, side).depth_of_part(part),
-    );
+    let state = &mut run.state.cycle_state;
+    let totals = BlockWear::total(state, &model.interface.wear);
+    let now = progress(model, &spines, state, mission.end_block(scene, totals));
+    let leaves = state.take_motion_history();
+    let depth = |side, part| record::worn_surface(model, state, side).depth_of_part(part);
+    if let Some(history) = mission.begin_block(scene, now, depth, leaves) {
+        state.continue_motion(history);
+    }
 }
 
 #[cfg(test)]

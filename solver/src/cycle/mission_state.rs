@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::CycleState;
-use super::motion_history::MotionHistory;
 use crate::law::surface::{self, SurfaceWear};
 use crate::number::real_cycles;
 use crate::scene::{Mission, Scene};
@@ -28,13 +27,13 @@ pub struct BlockWear {
     equivalent: Sides<Vec<f64>>,
 }
 
-/// State of a mission.
+/// State of a mission, whose motions leave a history for their next cycles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct MissionState {
+pub(crate) struct MissionState<H> {
     pub(crate) position: MissionPosition,
     /// The block before, until the slider has moved to the turning point where the cycles of the present one begin.
     pub(crate) left: Option<usize>,
-    histories: Vec<Option<MotionHistory>>,
+    histories: Vec<Option<H>>,
     wear: Vec<BlockWear>,
     /// Totals where the present block and the present repetitions began.
     block: BlockWear,
@@ -43,15 +42,14 @@ pub(crate) struct MissionState {
     rates: Sides<Vec<f64>>,
 }
 
-impl MissionState {
-    /// State of the loaded, unworn bodies.
-    pub(crate) fn new(scene: &Scene, mission: &Mission, state: &CycleState) -> Self {
-        let totals = BlockWear::total(state, &Sides::default());
-        let nodes = state.depth.as_ref().map(Vec::len);
+impl<H> MissionState<H> {
+    /// State of the loaded, unworn bodies with these totals.
+    pub(crate) fn new(scene: &Scene, mission: &Mission, totals: BlockWear) -> Self {
+        let nodes = totals.equivalent.as_ref().map(Vec::len);
         Self {
             position: MissionPosition::first(scene),
             left: None,
-            histories: vec![None; mission.blocks.len()],
+            histories: mission.blocks.iter().map(|_| None).collect(),
             wear: vec![BlockWear::default(); mission.blocks.len()],
             block: totals.clone(),
             repetitions: totals,
@@ -59,54 +57,49 @@ impl MissionState {
         }
     }
 
-    /// Returns `true` if the present block is done.
-    pub(crate) fn is_block_done(&self, state: &CycleState) -> bool {
-        state.cycle >= self.position.until
+    /// Returns `true` if the present block is done after so many cycles.
+    pub(crate) fn is_block_done(&self, cycle: u64) -> bool {
+        cycle >= self.position.until
     }
 
-    /// Returns `true` if all blocks have been repeated equally often.
-    pub(crate) fn is_whole(&self, scene: &Scene, state: &CycleState) -> bool {
-        self.is_block_done(state) && self.position.is_last_block(scene)
+    /// Returns `true` if all blocks have been repeated equally often after so many cycles.
+    pub(crate) fn is_whole(&self, scene: &Scene, cycle: u64) -> bool {
+        self.is_block_done(cycle) && self.position.is_last_block(scene)
     }
 
-    /// Moves on to the next block, on surfaces of this wear; `progress` is that of the run at given rates of each node, and
-    /// `depth` that of a part of a side's scar.
-    pub(crate) fn next_block(
+    /// Ends the present block at these totals; returns the equivalent depth per cycle of the mission, mm.
+    pub(crate) fn end_block(&mut self, scene: &Scene, totals: BlockWear) -> Sides<&[f64]> {
+        self.wear[self.position.block].add(&totals, &self.block);
+        if self.position.is_last_block(scene) {
+            self.rates = totals.equivalent_per_cycle_since(&self.repetitions);
+            self.repetitions.clone_from(&totals);
+        }
+        self.block = totals;
+        self.rates.as_slices()
+    }
+
+    /// Begins the next block, with the history that the present one leaves; returns that of the next one's motion. `now` is the progress of the
+    /// run at the rates of the mission, and `depth` that of a part of a side's scar.
+    pub(crate) fn begin_block(
         &mut self,
         scene: &Scene,
-        state: &mut CycleState,
-        wear: &Sides<Option<SurfaceWear>>,
-        progress: impl Fn(&CycleState, Sides<&[f64]>) -> StopQuantities,
-        depth: impl Fn(&CycleState, Side, f64) -> f64,
-    ) {
-        let total = BlockWear::total(state, wear);
+        now: StopQuantities,
+        depth: impl Fn(Side, f64) -> f64,
+        leaves: H,
+    ) -> Option<H> {
         let present = self.position.block;
-        self.wear[present].add(&total, &self.block);
-        if self.position.is_last_block(scene) {
-            self.rates = total.equivalent_per_cycle_since(&self.repetitions);
-            self.repetitions.clone_from(&total);
-        }
-        self.block = total;
-        let now = progress(state, self.rates.as_slices());
-        let depth = |side, part| depth(state, side, part);
         self.position = self.position.next(scene, now, depth);
         self.left = Some(present);
-        self.histories[present] = Some(state.take_motion_history());
-        if let Some(history) = self.histories[self.position.block].take() {
-            state.continue_motion(history);
-        }
+        self.histories[present] = Some(leaves);
+        self.histories[self.position.block].take()
     }
 
-    /// Wear of each block so far.
-    pub(crate) fn wear(
-        &self,
-        state: &CycleState,
-        wear: &Sides<Option<SurfaceWear>>,
-    ) -> Vec<BlockWear> {
+    /// Wear of each block up to these totals, at these worn depths of the nodes, mm.
+    pub(crate) fn wear(&self, totals: &BlockWear, depth: Sides<&[f64]>) -> Vec<BlockWear> {
         let mut blocks = self.wear.clone();
-        blocks[self.position.block].add(&BlockWear::total(state, wear), &self.block);
+        blocks[self.position.block].add(totals, &self.block);
         for side in Side::BOTH {
-            let deepest = deepest(state.depth.of(side));
+            let deepest = deepest(depth.of(side));
             let at = |block: &BlockWear| {
                 let node = block.equivalent.of(side).get(deepest);
                 node.copied().unwrap_or_default()
@@ -120,16 +113,9 @@ impl MissionState {
         blocks
     }
 
-    /// Estimated relative error of the worn depth by the jumps of all blocks.
-    pub(crate) fn mean_error(&self, state: &CycleState) -> f64 {
-        let histories = self.histories.iter().flatten().map(|history| &history.jump);
-        let (mut error, mut worn) = state.jump.weighted_error();
-        for jump in histories {
-            let (more_error, more_worn) = jump.weighted_error();
-            error += more_error;
-            worn += more_worn;
-        }
-        if worn > 0.0 { error / worn } else { 0.0 }
+    /// Histories of the motions that are not under way.
+    pub(crate) fn histories(&self) -> impl Iterator<Item = &H> {
+        self.histories.iter().flatten()
     }
 }
 
@@ -151,8 +137,8 @@ impl BlockWear {
         }
     }
 
-    /// Totals of a run.
-    fn total(state: &CycleState, wear: &Sides<Option<SurfaceWear>>) -> Self {
+    /// Totals of a run on surfaces of this wear.
+    pub(crate) fn total(state: &CycleState, wear: &Sides<Option<SurfaceWear>>) -> Self {
         Self {
             cycles: state.cycle,
             sliding_distance_mm: state.sliding_distance,

@@ -6,8 +6,8 @@ use super::{CycleState, Neutral, Skew, WarmStarts};
 use crate::schedule::jump::JumpControl;
 
 /// Jump control and contact of a motion.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct MotionHistory {
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct MotionHistory {
     pub(crate) jump: JumpControl,
     warm_starts: WarmStarts,
     neutral: Neutral,
@@ -55,4 +55,18 @@ impl CycleState {
         self.energy_per_cycle = 0.0;
         self.loss_of_load = 0.0;
     }
+}
+
+/// Estimated relative error of the worn depth by the jumps of a state and of the motions that are not under way.
+pub(crate) fn mean_error<'a>(
+    state: &CycleState,
+    histories: impl Iterator<Item = &'a MotionHistory>,
+) -> f64 {
+    let (mut error, mut worn) = state.jump.weighted_error();
+    for history in histories {
+        let (more_error, more_worn) = history.jump.weighted_error();
+        error += more_error;
+        worn += more_worn;
+    }
+    if worn > 0.0 { error / worn } else { 0.0 }
 }

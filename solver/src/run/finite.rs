@@ -13,9 +13,7 @@ use std::ops::ControlFlow;
 use super::resistance::{self, RequiredAction};
 use crate::SolveError;
 use crate::change::Change;
-use crate::checkpoint::{
-    CheckpointMismatch, EarlierRuns, ExtrudedRun, FiniteRun, LineRun, PointRun,
-};
+use crate::checkpoint::{CheckpointMismatch, EarlierRuns, ExtrudedRun, LineRun, PointRun, Run};
 use crate::effects::EffectsPlan;
 use crate::electrical::ElectricalState;
 use crate::extruded::ExtrudedIntegrator;
@@ -96,8 +94,9 @@ fn begin_contact<C: Contact>(
         contact_resistance_mohm: electrical.total_mohm(),
     };
     let snapshot = contact.snapshot(scene, &state, worn)?;
-    let mut run = FiniteRun {
+    let mut run = Run {
         state,
+        mission: None,
         initial,
         crossings: Vec::new(),
         compared: Compared::default(),
@@ -119,7 +118,7 @@ fn begin_contact<C: Contact>(
 fn proceed<C: Contact>(
     scene: &Scene,
     plan: &EffectsPlan,
-    mut run: FiniteRun<C::State>,
+    mut run: Run<C::State, ()>,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     let (cycle, cycles) = (C::cycle(&run.state), scene.cycles);
@@ -137,7 +136,7 @@ fn advance<C: Contact>(
     scene: &Scene,
     mut plan: EffectsPlan,
     mut contact: C,
-    mut run: FiniteRun<C::State>,
+    mut run: Run<C::State, ()>,
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     loop {
@@ -157,7 +156,7 @@ fn integrate<C: Contact>(
     scene: &Scene,
     plan: &EffectsPlan,
     contact: &mut C,
-    run: &mut FiniteRun<C::State>,
+    run: &mut Run<C::State, ()>,
     observer: &mut dyn Observer,
 ) -> Result<ControlFlow<Outcome>, SolveError> {
     const STOPPED: ControlFlow<Outcome> = ControlFlow::Break(Outcome::Stopped);
@@ -230,7 +229,7 @@ fn integrate<C: Contact>(
 }
 
 /// Progress for its stops.
-fn progress<C: Contact>(scene: &Scene, contact: &C, run: &FiniteRun<C::State>) -> StopQuantities {
+fn progress<C: Contact>(scene: &Scene, contact: &C, run: &Run<C::State, ()>) -> StopQuantities {
     let (cycles_left, worn_through) = contact.cycles_left();
     StopQuantities {
         cycle: C::cycle(&run.state),
@@ -246,7 +245,7 @@ fn summary<C: Contact>(
     scene: &Scene,
     plan: &EffectsPlan,
     contact: &C,
-    run: &FiniteRun<C::State>,
+    run: &Run<C::State, ()>,
     outcome: Outcome,
 ) -> Summary {
     let worn = contact.worn(&run.state);

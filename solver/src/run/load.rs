@@ -6,15 +6,16 @@ use super::computed::{Computed, UNLIMITED};
 use super::resistance;
 use super::snapshot::snapshot;
 use crate::SolveError;
-use crate::checkpoint::{EarlierRuns, SectionRun};
+use crate::checkpoint::{EarlierRuns, SectionRun, SectionState};
 use crate::condensation::{self, Condensed};
-use crate::cycle::{CycleState, Integrator, MissionState};
+use crate::cycle::{BlockWear, CycleState, Integrator, MissionState};
 use crate::effects::EffectsPlan;
 use crate::electrical::ElectricalState;
 use crate::model::{self, Model};
 use crate::observer::{Event, Observer, Phase, Restart};
 use crate::record::{self, Compared, Initial, Life};
 use crate::scene::Scene;
+use crate::sides::Sides;
 
 /// The loaded, unworn bodies, and what their load required.
 pub(super) struct Loaded {
@@ -41,7 +42,7 @@ pub(super) fn load_unworn(
     loop {
         let error = match load(scene, &plan, &model, &condensed, observer) {
             Ok((mut run, flow)) => {
-                (run.crossings, run.widened) = (crossings, widened);
+                (run.crossings, run.state.widened) = (crossings, widened);
                 return Ok(Loaded {
                     plan,
                     model,
@@ -116,12 +117,17 @@ fn load(
     };
     let mission = scene.mission.as_ref();
     let run = SectionRun {
-        mission: mission.map(|mission| MissionState::new(scene, mission, &state)),
-        state,
+        mission: mission.map(|mission| {
+            let totals = BlockWear::total(&state, &Sides::default());
+            MissionState::new(scene, mission, totals)
+        }),
+        state: SectionState {
+            cycle_state: state,
+            built: None,
+            relocations: 0,
+            widened: 1.0,
+        },
         initial,
-        built: None,
-        relocations: 0,
-        widened: 1.0,
         crossings: Vec::new(),
         compared,
         life: Life::default(),

@@ -18,7 +18,7 @@ pub(super) fn end(
     spines: &Spines,
     run: &SectionRun,
 ) -> Option<Outcome> {
-    let state = &run.state;
+    let state = &run.state.cycle_state;
     let depth = |side, part| record::worn_surface(model, state, side).depth_of_part(part);
     stops::end(scene, now(scene, model, spines, run), depth)
 }
@@ -30,9 +30,10 @@ pub(super) fn now(
     spines: &Spines,
     run: &SectionRun,
 ) -> StopQuantities {
+    let state = &run.state.cycle_state;
     StopQuantities {
         exceeds_resistance: resistance::exceeds_limit(scene, &run.electrical),
-        ..progress(model, spines, &run.state, run.state.jump.rates())
+        ..progress(model, spines, state, state.jump.rates())
     }
 }
 

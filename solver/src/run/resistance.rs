@@ -47,7 +47,7 @@ pub(super) fn update(
         model,
         condensed,
         before,
-        after: &run.state,
+        after: &run.state.cycle_state,
     };
     evaluation.update(&mut run.electrical, |part| {
         computed.contact(part, UNLIMITED)
@@ -58,10 +58,10 @@ pub(super) fn update(
     };
     let found = required_action(scene, plan, computed.cycles(), change);
     match &found {
-        None => run.state.constriction_mohm = run.electrical.constriction_mohm(),
+        None => run.state.cycle_state.constriction_mohm = run.electrical.constriction_mohm(),
         Some(RequiredAction::GoTo(_)) => {
-            run.state = CycleState {
-                work: run.state.work,
+            run.state.cycle_state = CycleState {
+                work: run.state.cycle_state.work,
                 ..before.clone()
             };
             run.electrical = electrical;

@@ -44,10 +44,10 @@ pub(super) fn step(
     left: Option<Motion>,
     until_limit: u64,
 ) -> Result<Step, SolveError> {
-    let before = run.state.clone();
+    let before = run.state.cycle_state.clone();
     let record = match left {
         Some(motion) => integrator
-            .change_motion(&mut run.state, motion)
+            .change_motion(&mut run.state.cycle_state, motion)
             .map(|()| None),
         None => next_cycle(scene, model, integrator, run, until_limit).map(Some),
     };
@@ -58,8 +58,8 @@ pub(super) fn step(
             return Ok(Step::MotionChanged);
         }
         Err(error) if error.needs_wider_zones() => {
-            run.state = before;
-            run.widen();
+            run.state.cycle_state = before;
+            run.state.widen();
             return Ok(Step::Update(RequiredUpdate::Stiffness));
         }
         Err(error) => {
@@ -67,17 +67,19 @@ pub(super) fn step(
             if required.is_empty() {
                 return Err(error.into());
             }
-            run.go_back(before, required);
+            run.state.cycle_state = before;
+            run.crossings.extend(required);
             return Ok(Step::Update(RequiredUpdate::Effects));
         }
     };
-    let state = &run.state;
+    let state = &run.state.cycle_state;
     let depth = state.depth.largest_of_each();
     let required = plan.crossed(scene, before.cycle, state.cycle, depth);
     if required.is_empty() {
         return Ok(Step::Cycle(Box::new(before), Box::new(record)));
     }
-    run.go_back(before, required);
+    run.state.cycle_state = before;
+    run.crossings.extend(required);
     Ok(Step::Update(RequiredUpdate::Effects))
 }
 
@@ -97,12 +99,12 @@ fn next_cycle(
     run: &mut SectionRun,
     until_limit: u64,
 ) -> Result<CycleRecord, CycleError> {
-    let state = &run.state;
+    let state = &run.state.cycle_state;
     let depth = |side, part| record::worn_surface(model, state, side).depth_of_part(part);
     let now = now(scene, model, &integrator.spines, run);
     let next = stops::next(scene, now, depth).min(until_limit);
     let position = run.mission.as_ref().map(|mission| mission.position);
     let (until, is_reported) =
         position.map_or((next, true), |position| position.next_reported(scene, next));
-    integrator.compute_cycle(&mut run.state, until, is_reported)
+    integrator.compute_cycle(&mut run.state.cycle_state, until, is_reported)
 }

@@ -1,6 +1,7 @@
 //! The summary of a run.
 
 use crate::checkpoint::SectionRun;
+use crate::cycle::{BlockWear, MissionState, mean_error};
 use crate::effects::EffectsPlan;
 use crate::model::Model;
 use crate::record::{self, Outcome, Resolution, Summary};
@@ -14,7 +15,7 @@ pub(super) fn summary(
     run: &SectionRun,
     outcome: Outcome,
 ) -> Summary {
-    let state = &run.state;
+    let state = &run.state.cycle_state;
     let last = record::report(scene, model, state, run.electrical.resistance);
     let mut checks = state.checks;
     checks.worn_area = record::worn_area_residual(state, &last);
@@ -28,11 +29,11 @@ pub(super) fn summary(
             computed_cycles: state.computed_cycles,
             work: state.work,
             dofs: model.bodies.slider.dofs() + model.bodies.receptacle.dofs(),
-            relocations: run.relocations,
-            estimated_relative_error: match &run.mission {
-                Some(mission) => mission.mean_error(state),
-                None => state.jump.mean_error(),
-            },
+            relocations: run.state.relocations,
+            estimated_relative_error: mean_error(
+                state,
+                run.mission.iter().flat_map(MissionState::histories),
+            ),
         },
         last,
         checks,
@@ -43,7 +44,8 @@ pub(super) fn summary(
         crossings: run.crossings.clone(),
         life: run.life.clone(),
         blocks: run.mission.as_ref().map_or_else(Vec::new, |mission| {
-            mission.wear(state, &model.interface.wear)
+            let totals = BlockWear::total(state, &model.interface.wear);
+            mission.wear(&totals, state.depth.as_slices())
         }),
     }
 }

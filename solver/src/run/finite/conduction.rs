@@ -2,7 +2,7 @@
 
 use super::contact::Contact;
 use crate::change::Change;
-use crate::checkpoint::FiniteRun;
+use crate::checkpoint::Run;
 use crate::electrical::{ElectricalState, Evaluation};
 use crate::record::CycleRange;
 use crate::run::computed::{UNLIMITED, elapsed_s};
@@ -33,7 +33,7 @@ pub(super) fn push_life_by_resistance<C: Contact>(
     evaluation: Option<&Evaluation<'_>>,
     before: &C::State,
     electrical: &ElectricalState,
-    run: &mut FiniteRun<C::State>,
+    run: &mut Run<C::State, ()>,
 ) {
     let (Some(evaluation), Some(areas)) = (evaluation, C::areas(before, &run.state)) else {
         return;

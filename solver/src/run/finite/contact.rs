@@ -1,7 +1,7 @@
 //! A contact of finite width in a run: a point, a line or extruded bodies.
 
 use crate::SolveError;
-use crate::checkpoint::{FiniteRun, Resumable};
+use crate::checkpoint::{Resumable, Run};
 use crate::effects::EffectsPlan;
 use crate::electrical::{AreaContact, ContactResistance};
 use crate::record::{Checks, CycleReport, Exposed, Outcome, Resolution, Snapshot};
@@ -63,5 +63,5 @@ pub(super) trait Contact: Sized {
     fn checks(&self, state: &Self::State) -> Checks;
 
     /// The run as that of a checkpoint.
-    fn resumable(run: &FiniteRun<Self::State>) -> Resumable<'_>;
+    fn resumable(run: &Run<Self::State, ()>) -> Resumable<'_>;
 }

@@ -4,7 +4,7 @@
 use super::contact::Contact;
 use crate::SolveError;
 use crate::along_line::{Ending, StationCycle, StationProfile};
-use crate::checkpoint::{FiniteRun, Resumable};
+use crate::checkpoint::{Resumable, Run};
 use crate::contact::{ContactState, Work};
 use crate::cycle::FrictionLoop;
 use crate::effects::EffectsPlan;
@@ -57,7 +57,7 @@ pub(super) trait Sections: Sized {
     fn size(&self) -> (usize, usize, f64);
 
     /// The run as that of a checkpoint.
-    fn resumable(run: &FiniteRun<Self::State>) -> Resumable<'_>;
+    fn resumable(run: &Run<Self::State, ()>) -> Resumable<'_>;
 }
 
 /// State of sections, as a run reads it.
@@ -188,7 +188,7 @@ impl<S: Sections> Contact for S {
         self.residuals()
     }
 
-    fn resumable(run: &FiniteRun<S::State>) -> Resumable<'_> {
+    fn resumable(run: &Run<S::State, ()>) -> Resumable<'_> {
         S::resumable(run)
     }
 }

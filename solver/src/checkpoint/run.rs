@@ -1,0 +1,79 @@
+//! Run between two computed cycles: what is computed from the state of its contact, operators among it, is computed again.
+
+use serde::{Deserialize, Serialize};
+
+use super::earlier::EarlierRuns;
+use super::section::SectionState;
+use crate::cycle::{MissionState, MotionHistory};
+use crate::effects::Crossing;
+use crate::electrical::ElectricalState;
+use crate::extruded::ExtrudedState;
+use crate::point::PointState;
+use crate::record::{Compared, Initial, Life};
+use crate::scene::Scene;
+use crate::station::LineState;
+
+/// A run between two computed cycles: the state of its contact, and the history that a motion leaves where a run has several.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Run<S, H> {
+    pub(crate) state: S,
+    /// State of its mission, if it has one.
+    pub(crate) mission: Option<MissionState<H>>,
+    pub(crate) initial: Initial,
+    /// Skipped effects that the run has required.
+    pub(crate) crossings: Vec<Crossing>,
+    /// Histories that the run's error is estimated by.
+    pub(crate) compared: Compared,
+    /// Life by the criteria of the scene.
+    pub(crate) life: Life,
+    /// Resistance of the contact, and what the next one depends on.
+    pub(crate) electrical: ElectricalState,
+    /// Earlier runs of this scene, for error control.
+    pub(crate) earlier: EarlierRuns,
+}
+
+/// A run of a section.
+pub type SectionRun = Run<SectionState, MotionHistory>;
+
+/// A run of a point contact.
+pub type PointRun = Run<PointState, ()>;
+
+/// A run of a contact along a line.
+pub type LineRun = Run<LineState, ()>;
+
+/// A run of extruded bodies.
+pub type ExtrudedRun = Run<ExtrudedState, ()>;
+
+impl<S, H> Run<S, H> {
+    /// The present block of its mission; the first one without a mission.
+    pub(crate) fn block(&self) -> usize {
+        let mission = self.mission.as_ref();
+        mission.map_or(0, |mission| mission.position.block)
+    }
+
+    /// The block whose motion the slider has to leave before the next cycle.
+    pub(crate) fn block_left(&self) -> Option<usize> {
+        self.mission.as_ref().and_then(|mission| mission.left)
+    }
+
+    /// Returns `true` if the present block of its mission is done after so many cycles.
+    pub(crate) fn is_block_done(&self, cycle: u64) -> bool {
+        let mission = self.mission.as_ref();
+        mission.is_some_and(|mission| mission.is_block_done(cycle))
+    }
+
+    /// Records that the slider is where the cycles of the present block begin.
+    pub(crate) fn motion_changed(&mut self) {
+        if let Some(mission) = &mut self.mission {
+            mission.left = None;
+        }
+    }
+
+    /// Returns `true` if the state after so many cycles can be compared with that of another run: one that takes other rounds of a
+    /// mission together has worn its blocks in another order before they are whole.
+    pub(crate) fn is_comparable(&self, scene: &Scene, cycle: u64) -> bool {
+        let (mission, repeated) = (self.mission.as_ref(), scene.mission.as_ref());
+        let repeats = repeated.is_some_and(|mission| mission.rounds() > 1);
+        mission.is_none_or(|mission| !repeats || mission.is_whole(scene, cycle))
+    }
+}
