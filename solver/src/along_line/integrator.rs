@@ -28,8 +28,8 @@ pub(super) struct Before {
 }
 
 impl<C: SectionedContact> SectionsIntegrator<C> {
-    /// An unworn, unloaded contact.
-    fn unloaded(contact: C) -> Self {
+    /// For an unworn, unloaded contact.
+    pub(crate) fn of(contact: C) -> Self {
         Self {
             contact,
             progress: Progress::default(),
@@ -37,28 +37,26 @@ impl<C: SectionedContact> SectionsIntegrator<C> {
         }
     }
 
-    /// Loads an unworn contact; returns the state before any wear.
+    /// Applies the load to the unworn contact; returns the state before any wear.
     ///
     /// # Errors
     /// A contact without a solution, a section that cannot be meshed.
-    pub(crate) fn loaded(contact: C) -> Result<(Self, SectionsState<C::State>), C::Error> {
-        let mut integrator = Self::unloaded(contact);
-        integrator.in_threads(|integrator| {
+    pub(crate) fn load(&mut self) -> Result<SectionsState<C::State>, C::Error> {
+        self.in_threads(|integrator| {
             in_wide_zones(integrator, |integrator| integrator.contact.apply_load())
         })?;
         let before = Before {
             increments: 0,
             iterations: 0,
-            ..integrator.before()
+            ..self.before()
         };
-        let neutral = integrator.contact.contacts_at(Position::Neutral);
-        integrator.take_record(LineRecord {
+        let neutral = self.contact.contacts_at(Position::Neutral);
+        self.take_record(LineRecord {
             positions: vec![neutral],
             ..LineRecord::default()
         });
-        integrator.progress.last = integrator.report(0, &before);
-        let state = integrator.state();
-        Ok((integrator, state))
+        self.progress.last = self.report(0, &before);
+        Ok(self.state())
     }
 
     /// For a state of a checkpoint, to the same bits as without it.
@@ -69,7 +67,7 @@ impl<C: SectionedContact> SectionsIntegrator<C> {
     where
         C::State: Sync,
     {
-        let mut integrator = Self::unloaded(contact);
+        let mut integrator = Self::of(contact);
         integrator.in_threads(|integrator| integrator.enter(state))?;
         Ok(integrator)
     }

@@ -29,21 +29,21 @@ use crate::threads::Threads;
 pub(crate) type ExtrudedIntegrator = SectionsIntegrator<ExtrudedContact>;
 
 impl ExtrudedIntegrator {
-    /// The loaded contact before any wear, by a plan.
+    /// The unworn bodies without load, by a plan.
     ///
     /// # Errors
-    /// A scene that extruded bodies do not describe, a body that cannot be meshed or condensed, a contact without a solution.
-    pub(crate) fn start(
+    /// A scene that extruded bodies do not describe, a body that cannot be meshed or condensed.
+    pub(crate) fn unloaded(
         scene: &ExtrudedScene,
         plan: &EffectsPlan,
-    ) -> Result<(Self, ExtrudedState), ExtrudedError> {
-        Self::loaded(ExtrudedContact::unloaded(scene, plan)?)
+    ) -> Result<Self, ExtrudedError> {
+        Ok(Self::of(ExtrudedContact::unloaded(scene, plan)?))
     }
 
     /// For a state of a checkpoint, to the same bits as without it.
     ///
     /// # Errors
-    /// As [`Self::start`].
+    /// As [`Self::unloaded`].
     pub(crate) fn resume(
         scene: &ExtrudedScene,
         plan: &EffectsPlan,

@@ -18,7 +18,8 @@ pub fn run(
     on_cycle: impl FnMut(&StationCycle) -> ControlFlow<()>,
 ) -> Result<ExtrudedSummary, ExtrudedError> {
     let plan = effects::plan(&scene.plane());
-    let (mut integrator, mut state) = ExtrudedIntegrator::start(scene, &plan)?;
+    let mut integrator = ExtrudedIntegrator::unloaded(scene, &plan)?;
+    let mut state = integrator.load()?;
     let (initial, approach_mm) = (state.last().clone(), integrator.approach_mm());
     let outcome = integrator.run(&mut state, on_cycle)?;
     Ok(ExtrudedSummary {

@@ -27,14 +27,25 @@ pub(crate) struct PointIntegrator {
 }
 
 impl PointIntegrator {
-    /// The loaded contact before any wear.
+    /// The unworn contact without load.
     ///
     /// # Errors
-    /// A scene that is no point contact, a contact without a solution.
-    pub(crate) fn start(scene: &PointScene) -> Result<(Self, PointState), PointError> {
+    /// A scene that is no point contact.
+    pub(crate) fn unloaded(scene: &PointScene) -> Result<Self, PointError> {
         check::check(scene)?;
+        Ok(Self {
+            sliding: Sliding::new(scene, &State::unworn(scene)),
+            scene: *scene,
+        })
+    }
+
+    /// Applies the load to the unworn contact.
+    ///
+    /// # Errors
+    /// A contact without a solution.
+    pub(crate) fn load(&mut self) -> Result<PointState, PointError> {
+        let (scene, sliding) = (&self.scene, &mut self.sliding);
         let mut state = State::unworn(scene);
-        let mut sliding = Sliding::new(scene, &state);
         sliding.load(&mut state)?;
         if scene.slip == SlipRegime::Partial {
             // To the turning point where the first pass begins, without wear.
@@ -55,12 +66,8 @@ impl PointIntegrator {
             increments: Vec::new(),
             sliding: state,
         };
-        let integrator = Self {
-            scene: *scene,
-            sliding,
-        };
-        state.last = integrator.report(&state, 0, 0.0, state.sliding.work);
-        Ok((integrator, state))
+        state.last = self.report(&state, 0, 0.0, state.sliding.work);
+        Ok(state)
     }
 
     /// For a state of a checkpoint.

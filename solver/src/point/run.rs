@@ -16,7 +16,8 @@ pub fn run(
     scene: &PointScene,
     mut on_cycle: impl FnMut(&PointCycle) -> ControlFlow<()>,
 ) -> Result<PointSummary, PointError> {
-    let (mut integrator, mut state) = PointIntegrator::start(scene)?;
+    let mut integrator = PointIntegrator::unloaded(scene)?;
+    let mut state = integrator.load()?;
     let initial = *state.last();
     let mut outcome = PointOutcome::Completed;
     while state.cycle() < scene.cycles {

@@ -32,21 +32,18 @@ use crate::threads::Threads;
 pub(crate) type LineIntegrator = SectionsIntegrator<LineContact>;
 
 impl LineIntegrator {
-    /// The loaded contact before any wear, by a plan.
+    /// The unworn sections without load, by a plan.
     ///
     /// # Errors
-    /// A scene that stations do not describe, a section that cannot be meshed, a contact without a solution.
-    pub(crate) fn start(
-        scene: &StationScene,
-        plan: &EffectsPlan,
-    ) -> Result<(Self, LineState), StationError> {
-        Self::loaded(LineContact::unloaded(scene, plan)?)
+    /// A scene that stations do not describe, a section that cannot be meshed.
+    pub(crate) fn unloaded(scene: &StationScene, plan: &EffectsPlan) -> Result<Self, StationError> {
+        Ok(Self::of(LineContact::unloaded(scene, plan)?))
     }
 
     /// For a state of a checkpoint, to the same bits as without it.
     ///
     /// # Errors
-    /// As [`Self::start`].
+    /// As [`Self::unloaded`].
     pub(crate) fn resume(
         scene: &StationScene,
         plan: &EffectsPlan,

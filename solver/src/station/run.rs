@@ -18,7 +18,8 @@ pub fn run(
     on_cycle: impl FnMut(&StationCycle) -> ControlFlow<()>,
 ) -> Result<StationSummary, StationError> {
     let plan = effects::plan(&scene.plane());
-    let (mut integrator, mut state) = LineIntegrator::start(scene, &plan)?;
+    let mut integrator = LineIntegrator::unloaded(scene, &plan)?;
+    let mut state = integrator.load()?;
     let initial = state.last().clone();
     let outcome = integrator.run(&mut state, on_cycle)?;
     Ok(StationSummary {

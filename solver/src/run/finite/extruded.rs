@@ -18,7 +18,9 @@ impl Sections for ExtrudedIntegrator {
     type State = ExtrudedState;
 
     fn start(scene: &Scene, plan: &EffectsPlan) -> Result<(Self, ExtrudedState), SolveError> {
-        Ok(Self::start(&bodies_of(scene)?, plan)?)
+        let mut bodies = Self::unloaded(&bodies_of(scene)?, plan)?;
+        let state = bodies.load()?;
+        Ok((bodies, state))
     }
 
     fn resume(

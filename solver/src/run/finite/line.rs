@@ -18,7 +18,9 @@ impl Sections for LineIntegrator {
     type State = LineState;
 
     fn start(scene: &Scene, plan: &EffectsPlan) -> Result<(Self, LineState), SolveError> {
-        Ok(Self::start(&line_of(scene)?, plan)?)
+        let mut line = Self::unloaded(&line_of(scene)?, plan)?;
+        let state = line.load()?;
+        Ok((line, state))
     }
 
     fn resume(scene: &Scene, plan: &EffectsPlan, state: &LineState) -> Result<Self, SolveError> {

@@ -25,7 +25,9 @@ impl Contact for PointIntegrator {
     type Scar = WornArea;
 
     fn start(scene: &Scene, plan: &EffectsPlan) -> Result<(Self, PointState), SolveError> {
-        Ok(Self::start(&contact_of(scene, plan)?)?)
+        let mut contact = Self::unloaded(&contact_of(scene, plan)?)?;
+        let state = contact.load()?;
+        Ok((contact, state))
     }
 
     fn resume(
