@@ -10,7 +10,7 @@ mod sections;
 
 use std::ops::ControlFlow;
 
-use super::resistance::{self, RequiredAction};
+use super::section::resistance::{self, RequiredAction};
 use crate::SolveError;
 use crate::change::Change;
 use crate::checkpoint::{CheckpointMismatch, EarlierRuns, ExtrudedRun, LineRun, PointRun, Run};

@@ -1,8 +1,10 @@
 //! A run that requires an effect which its plan has skipped.
 
+use std::ops::ControlFlow;
+
 use super::*;
 use crate::model::tests::fuzz_button;
-use crate::observer::Restart;
+use crate::observer::{Event, Restart};
 use crate::scene::{BlockShape, Friction, Motion, SliderShape, WearLaw};
 use crate::scene::{Effect, Switches};
 
@@ -47,10 +49,11 @@ fn plan_of_few_cycles() -> EffectsPlan {
 fn a_run_goes_back_and_switches_on_what_it_calls_for() {
     let scene = scene(400);
     let mut recorder = Recorder::default();
-    let done = begin(
+    let done = by_plan(
         &scene,
         &plan_of_few_cycles(),
-        EarlierRuns::default(),
+        None,
+        &EarlierRuns::default(),
         &mut recorder,
     );
     let done = done.expect("it can be solved");
@@ -84,10 +87,11 @@ fn a_run_goes_back_and_switches_on_what_it_calls_for() {
 fn a_resumed_run_continues_with_what_it_has_required() {
     let scene = scene(400);
     let mut whole = Recorder::default();
-    let done = begin(
+    let done = by_plan(
         &scene,
         &plan_of_few_cycles(),
-        EarlierRuns::default(),
+        None,
+        &EarlierRuns::default(),
         &mut whole,
     );
     let done = done.expect("it can be solved");
@@ -100,7 +104,13 @@ fn a_resumed_run_continues_with_what_it_has_required() {
         .nth(from.count() / 2)
         .expect("checkpoints after the crossing");
     let mut rest = Recorder::default();
-    let resumed = proceed(&scene, &plan_of_few_cycles(), from.clone(), &mut rest);
+    let resumed = by_plan(
+        &scene,
+        &plan_of_few_cycles(),
+        Some(from.clone()),
+        &EarlierRuns::default(),
+        &mut rest,
+    );
     let resumed = resumed.expect("it resumes");
     assert_eq!(format!("{resumed:?}"), format!("{done:?}"));
 }

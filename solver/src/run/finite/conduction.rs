@@ -5,8 +5,8 @@ use crate::change::Change;
 use crate::checkpoint::Run;
 use crate::electrical::{ElectricalState, Evaluation};
 use crate::record::CycleRange;
-use crate::run::computed::{UNLIMITED, elapsed_s};
-use crate::run::resistance;
+use crate::run::section::computed::{UNLIMITED, elapsed_s};
+use crate::run::section::resistance;
 use crate::scene::Scene;
 
 /// Takes the contact after a computed cycle into the resistance, if it is evaluated; from the states before and after the cycle.

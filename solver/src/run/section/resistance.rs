@@ -1,5 +1,6 @@
 //! The resistance of the contact in a run.
 
+use super::computed::{Computed, UNLIMITED};
 use crate::change::Change;
 use crate::checkpoint::SectionRun;
 use crate::condensation::Condensed;
@@ -8,21 +9,23 @@ use crate::effects::{Crossing, EffectsPlan};
 use crate::electrical::{ElectricalState, Evaluation, Touching};
 use crate::model::Model;
 use crate::record::{CycleRange, Life, unreached};
-use crate::run::computed::{Computed, UNLIMITED};
 use crate::scene::Effect;
 use crate::scene::Scene;
 use crate::schedule::stops;
 use crate::sides::Sides;
 
 /// Prepares the evaluation of the contact resistance, if the plan has it.
-pub(super) fn evaluation<'a>(scene: &'a Scene, plan: &EffectsPlan) -> Option<Evaluation<'a>> {
+pub(in crate::run) fn evaluation<'a>(
+    scene: &'a Scene,
+    plan: &EffectsPlan,
+) -> Option<Evaluation<'a>> {
     let electrical = scene.conduction.known()?;
     plan.simulates(Effect::Resistance)
         .then(|| Evaluation::new(electrical))
 }
 
 /// Action of the run that the resistance after a computed cycle requires.
-pub(super) enum RequiredAction {
+pub(in crate::run) enum RequiredAction {
     /// Go to a cycle instead: a limit of the resistance was passed in too long a step.
     GoTo(u64),
     /// Simulate effects that were skipped.
@@ -31,7 +34,7 @@ pub(super) enum RequiredAction {
 
 /// Takes a computed cycle after a state into the resistance; where that has the run do something else, the run is as before it, but for
 /// its state where skipped effects are required.
-pub(super) fn update(
+pub(in crate::run) fn update(
     evaluation: &Evaluation<'_>,
     scene: &Scene,
     plan: &EffectsPlan,
@@ -72,7 +75,7 @@ pub(super) fn update(
 }
 
 /// The action that the resistances before and after a computed cycle require, if any.
-pub(super) fn required_action(
+pub(in crate::run) fn required_action(
     scene: &Scene,
     plan: &EffectsPlan,
     CycleRange { from, to }: CycleRange,
@@ -89,7 +92,7 @@ pub(super) fn required_action(
 
 /// Takes a computed cycle into the lives by the resistance, after those by the depth: a limit that is passed in it is located among its
 /// contacts, in none of which a place is deeper than a criterion that is reached later. `contact` is the one after a part of the cycle.
-pub(super) fn push_life(
+pub(in crate::run) fn push_life(
     scene: &Scene,
     evaluation: &Evaluation<'_>,
     cycles: CycleRange,
@@ -109,7 +112,7 @@ pub(super) fn push_life(
 }
 
 /// The same of a section.
-pub(super) fn push_life_of_section(
+pub(in crate::run) fn push_life_of_section(
     computed: Computed<'_>,
     change: Change<&ElectricalState>,
     life: &mut Life,
@@ -122,7 +125,7 @@ pub(super) fn push_life_of_section(
 }
 
 /// Returns `true` if the resistance has reached a limit that ends the run.
-pub(super) fn exceeds_limit(scene: &Scene, electrical: &ElectricalState) -> bool {
+pub(in crate::run) fn exceeds_limit(scene: &Scene, electrical: &ElectricalState) -> bool {
     let limits = scene.conduction.known().map(|known| &known.stop_mohm);
     let exceeds = |limit: &f64| electrical.total_mohm().is_some_and(|total| total >= *limit);
     limits.into_iter().flatten().any(exceeds)

@@ -1,12 +1,12 @@
 //! One computed cycle of a run, or what the run needs in its place.
 
+use super::progress::now;
 use crate::SolveError;
 use crate::checkpoint::SectionRun;
 use crate::cycle::{CycleError, CycleRecord, CycleState, Integrator};
 use crate::effects::{Crossing, EffectsPlan};
 use crate::model::Model;
 use crate::record::{self, Exposed};
-use crate::run::progress::now;
 use crate::scene::{Motion, Scene};
 use crate::schedule::stops;
 
