@@ -78,8 +78,8 @@ pub(crate) struct AreaContact {
     pub(crate) depths_mm: Vec<Sides<f64>>,
 }
 
-/// A contact as its resistance is computed from it: force, patches and time.
-#[derive(Debug, Clone, PartialEq)]
+/// A contact as its resistance is computed from it: force, patches and time. An open one by default.
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Touching {
     force_n: f64,
     patches: Vec<Patch>,

@@ -40,6 +40,11 @@ impl SolveError {
     pub(crate) fn needs_wider_zones(&self) -> bool {
         matches!(self, Self::Cycle(error) if error.needs_wider_zones())
     }
+
+    /// Returns `true` if the contact may have a solution with effects that were skipped.
+    pub(crate) fn may_need_effects(&self) -> bool {
+        matches!(self, Self::Cycle(CycleError::Increment { .. }))
+    }
 }
 
 impl From<FieldsError> for SolveError {

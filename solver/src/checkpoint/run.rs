@@ -10,7 +10,7 @@ use crate::electrical::ElectricalState;
 use crate::extruded::ExtrudedState;
 use crate::point::PointState;
 use crate::record::{Compared, Initial, Life};
-use crate::scene::Scene;
+use crate::scene::{Motion, Scene};
 use crate::station::LineState;
 
 /// A run between two computed cycles: the state of its contact, and the history that a motion leaves where a run has several.
@@ -45,6 +45,12 @@ pub type LineRun = Run<LineState, ()>;
 pub type ExtrudedRun = Run<ExtrudedState, ()>;
 
 impl<S, H> Run<S, H> {
+    /// Restores an earlier state for effects that were skipped.
+    pub(crate) fn go_back(&mut self, to: S, required: Vec<Crossing>) {
+        self.state = to;
+        self.crossings.extend(required);
+    }
+
     /// The present block of its mission; the first one without a mission.
     pub(crate) fn block(&self) -> usize {
         let mission = self.mission.as_ref();
@@ -54,6 +60,13 @@ impl<S, H> Run<S, H> {
     /// The block whose motion the slider has to leave before the next cycle.
     pub(crate) fn block_left(&self) -> Option<usize> {
         self.mission.as_ref().and_then(|mission| mission.left)
+    }
+
+    /// The motion that the slider has to leave before the next cycle.
+    pub(crate) fn motion_left(&self, scene: &Scene) -> Option<Motion> {
+        let left = self.mission.as_ref()?.left?;
+        let block = scene.mission.as_ref()?.blocks.get(left)?;
+        Some(block.motion)
     }
 
     /// Returns `true` if the present block of its mission is done after so many cycles.

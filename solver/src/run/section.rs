@@ -1,9 +1,9 @@
 //! The run of a plane section.
 
-pub(super) mod computed;
+mod computed;
 mod load;
 mod progress;
-pub(super) mod resistance;
+mod resistance;
 mod snapshot;
 mod step;
 mod summary;

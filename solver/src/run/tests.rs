@@ -1,7 +1,5 @@
 //! A run that requires an effect which its plan has skipped.
 
-use std::ops::ControlFlow;
-
 use super::*;
 use crate::model::tests::fuzz_button;
 use crate::observer::{Event, Restart};

@@ -14,19 +14,19 @@ use crate::sides::Sides;
 
 /// A computed cycle of a section whose resistance is evaluated.
 #[derive(Clone, Copy)]
-pub(in crate::run) struct Computed<'a> {
-    pub(in crate::run) evaluation: &'a Evaluation<'a>,
-    pub(in crate::run) scene: &'a Scene,
-    pub(in crate::run) model: &'a Model,
-    pub(in crate::run) condensed: &'a Condensed,
+pub(super) struct Computed<'a> {
+    pub(super) evaluation: &'a Evaluation<'a>,
+    pub(super) scene: &'a Scene,
+    pub(super) model: &'a Model,
+    pub(super) condensed: &'a Condensed,
     /// States before and after it.
-    pub(in crate::run) before: &'a CycleState,
-    pub(in crate::run) after: &'a CycleState,
+    pub(super) before: &'a CycleState,
+    pub(super) after: &'a CycleState,
 }
 
 impl Computed<'_> {
     /// The cycles that it stands for.
-    pub(in crate::run) fn cycles(self) -> CycleRange {
+    pub(super) fn cycles(self) -> CycleRange {
         CycleRange {
             from: self.before.cycle,
             to: self.after.cycle,
@@ -35,7 +35,7 @@ impl Computed<'_> {
 
     /// The contact at the last passage of the neutral position after a part of its cycles, with doses, load and width that change evenly and
     /// no place deeper than these limits, mm.
-    pub(in crate::run) fn contact(self, part: f64, limits: Sides<f64>) -> Touching {
+    pub(super) fn contact(self, part: f64, limits: Sides<f64>) -> Touching {
         let (from, to) = (self.before.neutral, self.after.neutral);
         let middle = part_way(from.middle, to.middle, part);
         let half_width = part_way(from.half_width, to.half_width, part);
@@ -70,12 +70,12 @@ impl Computed<'_> {
 }
 
 /// No limit of the depth, mm.
-pub(in crate::run) const UNLIMITED: Sides<f64> = Sides {
+pub(super) const UNLIMITED: Sides<f64> = Sides {
     slider: f64::INFINITY,
     receptacle: f64::INFINITY,
 };
 
 /// Time after a number of cycles, s; 0 of a continuous motion.
-pub(in crate::run) fn elapsed_s(scene: &Scene, cycles: f64) -> f64 {
+pub(super) fn elapsed_s(scene: &Scene, cycles: f64) -> f64 {
     scene.elapsed(cycles).1.unwrap_or_default()
 }

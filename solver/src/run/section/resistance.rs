@@ -15,17 +15,14 @@ use crate::schedule::stops;
 use crate::sides::Sides;
 
 /// Prepares the evaluation of the contact resistance, if the plan has it.
-pub(in crate::run) fn evaluation<'a>(
-    scene: &'a Scene,
-    plan: &EffectsPlan,
-) -> Option<Evaluation<'a>> {
+pub(super) fn evaluation<'a>(scene: &'a Scene, plan: &EffectsPlan) -> Option<Evaluation<'a>> {
     let electrical = scene.conduction.known()?;
     plan.simulates(Effect::Resistance)
         .then(|| Evaluation::new(electrical))
 }
 
 /// Action of the run that the resistance after a computed cycle requires.
-pub(in crate::run) enum RequiredAction {
+pub(super) enum RequiredAction {
     /// Go to a cycle instead: a limit of the resistance was passed in too long a step.
     GoTo(u64),
     /// Simulate effects that were skipped.
@@ -34,7 +31,7 @@ pub(in crate::run) enum RequiredAction {
 
 /// Takes a computed cycle after a state into the resistance; where that has the run do something else, the run is as before it, but for
 /// its state where skipped effects are required.
-pub(in crate::run) fn update(
+pub(super) fn update(
     evaluation: &Evaluation<'_>,
     scene: &Scene,
     plan: &EffectsPlan,
@@ -75,7 +72,7 @@ pub(in crate::run) fn update(
 }
 
 /// The action that the resistances before and after a computed cycle require, if any.
-pub(in crate::run) fn required_action(
+pub(super) fn required_action(
     scene: &Scene,
     plan: &EffectsPlan,
     CycleRange { from, to }: CycleRange,
@@ -92,7 +89,7 @@ pub(in crate::run) fn required_action(
 
 /// Takes a computed cycle into the lives by the resistance, after those by the depth: a limit that is passed in it is located among its
 /// contacts, in none of which a place is deeper than a criterion that is reached later. `contact` is the one after a part of the cycle.
-pub(in crate::run) fn push_life(
+pub(super) fn push_life(
     scene: &Scene,
     evaluation: &Evaluation<'_>,
     cycles: CycleRange,
@@ -112,7 +109,7 @@ pub(in crate::run) fn push_life(
 }
 
 /// The same of a section.
-pub(in crate::run) fn push_life_of_section(
+pub(super) fn push_life_of_section(
     computed: Computed<'_>,
     change: Change<&ElectricalState>,
     life: &mut Life,
@@ -125,7 +122,7 @@ pub(in crate::run) fn push_life_of_section(
 }
 
 /// Returns `true` if the resistance has reached a limit that ends the run.
-pub(in crate::run) fn exceeds_limit(scene: &Scene, electrical: &ElectricalState) -> bool {
+pub(super) fn exceeds_limit(scene: &Scene, electrical: &ElectricalState) -> bool {
     let limits = scene.conduction.known().map(|known| &known.stop_mohm);
     let exceeds = |limit: &f64| electrical.total_mohm().is_some_and(|total| total >= *limit);
     limits.into_iter().flatten().any(exceeds)

@@ -17,10 +17,8 @@ use crate::station::{LineIntegrator, LineState, StationError, StationScene};
 impl Sections for LineIntegrator {
     type State = LineState;
 
-    fn start(scene: &Scene, plan: &EffectsPlan) -> Result<(Self, LineState), SolveError> {
-        let mut line = Self::unloaded(&line_of(scene)?, plan)?;
-        let state = line.load()?;
-        Ok((line, state))
+    fn unworn(scene: &Scene, plan: &EffectsPlan) -> Result<Self, SolveError> {
+        Ok(Self::unloaded(&line_of(scene)?, plan)?)
     }
 
     fn resume(scene: &Scene, plan: &EffectsPlan, state: &LineState) -> Result<Self, SolveError> {
@@ -30,6 +28,10 @@ impl Sections for LineIntegrator {
             return Err(CheckpointMismatch::Stations { found, stations }.into());
         }
         Ok(Self::resume(&line, plan, state)?)
+    }
+
+    fn load(&mut self) -> Result<LineState, SolveError> {
+        Ok(self.load()?)
     }
 
     fn compute_cycle(&mut self, state: &mut LineState, until: u64) -> Result<(), SolveError> {

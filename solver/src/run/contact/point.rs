@@ -1,47 +1,67 @@
 //! The run of a point contact: what its reports and snapshots are made of. Profiles and tractions are those of its middle section; maps are
 //! of the whole contact.
 
-use super::contact::Contact;
+use super::{Bodies, Contact, Moment, Worn};
 use crate::SolveError;
+use crate::change::Change;
 use crate::checkpoint::{PointRun, Resumable};
 use crate::closed_form::{PointScene, SlipRegime};
 use crate::contact::Work;
 use crate::effects::EffectsPlan;
-use crate::electrical::{AreaContact, ContactResistance};
+use crate::electrical::{AreaContact, ContactResistance, Evaluation, Touching};
 use crate::interpolation::part_way;
 use crate::number::count;
+use crate::observer::Observer;
 use crate::point::{ContactAtPosition, DepthMap, PointError, PointIntegrator, PointState};
 use crate::record::{
-    self, AreaMaps, Checks, CycleReport, DepthProfile, FrictionLoop, Outcome, PointEnd, Position,
+    self, AreaMaps, Checks, CycleReport, DepthProfile, Exposed, FrictionLoop, PointEnd, Position,
     PressureMap, Resolution, Snapshot, TractionField, WornArea,
 };
 use crate::scene::Effect;
 use crate::scene::Scene;
 use crate::sides::{Side, Sides};
 
-impl Contact for PointIntegrator {
+impl Bodies for PointIntegrator {
     type State = PointState;
-    type Worn = Sides<DepthMap>;
-    type Scar = WornArea;
+    type History = ();
+    type Contact<'a> = &'a mut Self;
 
-    fn start(scene: &Scene, plan: &EffectsPlan) -> Result<(Self, PointState), SolveError> {
-        let mut contact = Self::unloaded(&contact_of(scene, plan)?)?;
-        let state = contact.load()?;
-        Ok((contact, state))
+    fn unworn(scene: &Scene, plan: &EffectsPlan, _: &mut dyn Observer) -> Result<Self, SolveError> {
+        Ok(Self::unloaded(&contact_of(scene, plan)?)?)
     }
 
-    fn resume(
+    fn resumed(
         scene: &Scene,
         plan: &EffectsPlan,
         state: &mut PointState,
+        _: &mut dyn Observer,
     ) -> Result<Self, SolveError> {
         let contact = contact_of(scene, plan)?;
         state.resume(&contact);
         Ok(Self::resume(&contact, state))
     }
 
-    fn compute_cycle(&mut self, state: &mut PointState, until: u64) -> Result<(), SolveError> {
-        self.compute_cycle(state, until)?;
+    fn contact<'a>(&'a mut self, _: &'a Scene) -> &'a mut Self {
+        self
+    }
+}
+
+impl Contact for &mut PointIntegrator {
+    type State = PointState;
+    type History = ();
+    type Worn = Worn<Sides<DepthMap>>;
+
+    fn load(&mut self) -> Result<PointState, SolveError> {
+        Ok((**self).load()?)
+    }
+
+    fn compute_cycle(
+        &mut self,
+        state: &mut PointState,
+        until: u64,
+        _: bool,
+    ) -> Result<(), SolveError> {
+        (**self).compute_cycle(state, until)?;
         Ok(())
     }
 
@@ -57,46 +77,50 @@ impl Contact for PointIntegrator {
         state.fastest_rate()
     }
 
-    /// Half-spaces are never worn through.
-    fn cycles_left(&self) -> (f64, bool) {
-        (f64::INFINITY, false)
-    }
-
-    fn ending(&self) -> Option<Outcome> {
-        None
-    }
-
     /// At the cells of the contact after the cycles.
-    fn areas<'a>(
-        before: &'a PointState,
-        after: &'a PointState,
-    ) -> Option<impl Fn(f64, Sides<f64>) -> AreaContact + 'a> {
-        let (from, to) = (before.last().force_n, after.last().force_n);
-        Some(move |part: f64, limits: Sides<f64>| AreaContact {
-            force_n: part_way(from, to, part),
-            depths_mm: after.depths_in_contact(part, limits),
-        })
+    fn touching(
+        &self,
+        _: &Scene,
+        evaluation: &Evaluation<'_>,
+        states: Change<&PointState>,
+        moment: Moment,
+    ) -> Touching {
+        let Change { before, after } = states;
+        let contact = AreaContact {
+            force_n: part_way(before.last().force_n, after.last().force_n, moment.part),
+            depths_mm: after.depths_in_contact(moment.part, moment.deepest),
+        };
+        evaluation.area(&contact, moment.time_s)
     }
 
-    fn worn(&self, state: &PointState) -> Sides<DepthMap> {
-        Sides::from_fn(|side| state.depth(side))
+    fn worn(&self, state: &PointState) -> Worn<Sides<DepthMap>> {
+        let maps = Sides::from_fn(|side| state.depth(side));
+        Worn {
+            scars: maps.as_ref().map(|map| WornArea::new(&map.depth_mm)),
+            places: maps,
+        }
     }
 
-    fn scars(worn: &Sides<DepthMap>) -> Sides<WornArea> {
-        worn.as_ref().map(|map| WornArea::new(&map.depth_mm))
+    fn surface<'a>(
+        &'a self,
+        _: &'a PointState,
+        worn: &'a Worn<Sides<DepthMap>>,
+        side: Side,
+    ) -> impl Exposed + 'a {
+        worn.scars.of(side)
     }
 
     fn report(
         &self,
         scene: &Scene,
         state: &PointState,
-        worn: &Sides<DepthMap>,
+        worn: &Worn<Sides<DepthMap>>,
         resistance: Option<&ContactResistance>,
     ) -> CycleReport {
         record::point_report(&PointEnd {
             scene,
             cycle: state.last(),
-            depth: worn,
+            depth: &worn.places,
             resistance,
         })
     }
@@ -105,12 +129,14 @@ impl Contact for PointIntegrator {
         &self,
         scene: &Scene,
         state: &PointState,
-        worn: Sides<DepthMap>,
+        worn: &Worn<Sides<DepthMap>>,
     ) -> Result<Snapshot, SolveError> {
-        Ok(snapshot(scene, self.scene(), state, worn))
+        let depth = worn.places.clone();
+        Ok(snapshot(scene, self.scene(), state, depth))
     }
 
-    fn resolution(&self, state: &PointState) -> Resolution {
+    fn resolution(&self, run: &PointRun) -> Resolution {
+        let state = &run.state;
         let (cells, cell_mm, (solves, iterations)) = state.size();
         let (computed, most_increments) = state.computed();
         Resolution {
@@ -131,7 +157,7 @@ impl Contact for PointIntegrator {
     }
 
     /// The area is that of the doses, which every law has: layers have no rate of their own.
-    fn checks(&self, state: &PointState) -> Checks {
+    fn checks(&self, state: &PointState, _: &CycleReport) -> Checks {
         let residuals = state.residuals(self.scene());
         Checks {
             force_balance: residuals.force,

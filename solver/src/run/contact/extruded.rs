@@ -17,10 +17,8 @@ use crate::sides::{Side, Sides};
 impl Sections for ExtrudedIntegrator {
     type State = ExtrudedState;
 
-    fn start(scene: &Scene, plan: &EffectsPlan) -> Result<(Self, ExtrudedState), SolveError> {
-        let mut bodies = Self::unloaded(&bodies_of(scene)?, plan)?;
-        let state = bodies.load()?;
-        Ok((bodies, state))
+    fn unworn(scene: &Scene, plan: &EffectsPlan) -> Result<Self, SolveError> {
+        Ok(Self::unloaded(&bodies_of(scene)?, plan)?)
     }
 
     fn resume(
@@ -34,6 +32,10 @@ impl Sections for ExtrudedIntegrator {
             return Err(CheckpointMismatch::Stations { found, stations }.into());
         }
         Ok(Self::resume(&bodies, plan, state)?)
+    }
+
+    fn load(&mut self) -> Result<ExtrudedState, SolveError> {
+        Ok(self.load()?)
     }
 
     fn compute_cycle(&mut self, state: &mut ExtrudedState, until: u64) -> Result<(), SolveError> {

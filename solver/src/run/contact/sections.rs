@@ -1,17 +1,19 @@
 //! The run of sections along a line, stations or node planes: reports and snapshots are those of the reference section, and of each section
 //! besides.
 
-use super::contact::Contact;
+use super::{Bodies, Contact, Moment, Worn};
 use crate::SolveError;
 use crate::along_line::{Ending, StationCycle, StationProfile};
+use crate::change::Change;
 use crate::checkpoint::{Resumable, Run};
 use crate::contact::{ContactState, Work};
 use crate::cycle::FrictionLoop;
 use crate::effects::EffectsPlan;
-use crate::electrical::{AreaContact, ContactResistance};
+use crate::electrical::{ContactResistance, Evaluation, Touching};
 use crate::fields::LineFields;
+use crate::observer::Observer;
 use crate::record::{
-    self, Checks, CycleReport, DepthProfile, LineEnd, Outcome, Resolution, Snapshot,
+    self, Checks, CycleReport, DepthProfile, Exposed, LineEnd, Outcome, Resolution, Snapshot,
     StationSnapshot, TractionField, WornArea, tractions,
 };
 use crate::scene::Scene;
@@ -19,14 +21,16 @@ use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
 
 /// Sections along a line, whose cycles a run computes.
-pub(super) trait Sections: Sized {
+pub(in crate::run) trait Sections: Sized {
     /// State between two computed cycles.
     type State: State;
 
-    /// The loaded contact before any wear.
-    fn start(scene: &Scene, plan: &EffectsPlan) -> Result<(Self, Self::State), SolveError>;
+    /// The unworn sections without load.
+    fn unworn(scene: &Scene, plan: &EffectsPlan) -> Result<Self, SolveError>;
     /// For a state of the same sections.
     fn resume(scene: &Scene, plan: &EffectsPlan, state: &Self::State) -> Result<Self, SolveError>;
+    /// Applies the load.
+    fn load(&mut self) -> Result<Self::State, SolveError>;
     /// Computes the next cycle up to a number of them.
     fn compute_cycle(&mut self, state: &mut Self::State, until: u64) -> Result<(), SolveError>;
     /// Cycles until the run ends by the depth of a section, at the present rates.
@@ -61,7 +65,7 @@ pub(super) trait Sections: Sized {
 }
 
 /// State of sections, as a run reads it.
-pub(super) trait State: Clone {
+pub(in crate::run) trait State: Clone {
     /// The last computed cycle.
     fn last(&self) -> &StationCycle;
     /// Largest wear of a place of each side per cycle in it, mm.
@@ -76,21 +80,48 @@ pub(super) trait State: Clone {
     fn mean_jump_error(&self) -> f64;
 }
 
-impl<S: Sections> Contact for S {
+impl<S: Sections> Bodies for S {
     type State = S::State;
-    type Worn = Vec<StationProfile>;
-    type Scar = WornArea;
+    type History = ();
+    type Contact<'a>
+        = &'a mut S
+    where
+        S: 'a;
 
-    fn start(scene: &Scene, plan: &EffectsPlan) -> Result<(Self, S::State), SolveError> {
-        S::start(scene, plan)
+    fn unworn(scene: &Scene, plan: &EffectsPlan, _: &mut dyn Observer) -> Result<Self, SolveError> {
+        S::unworn(scene, plan)
     }
 
-    fn resume(scene: &Scene, plan: &EffectsPlan, state: &mut S::State) -> Result<Self, SolveError> {
+    fn resumed(
+        scene: &Scene,
+        plan: &EffectsPlan,
+        state: &mut S::State,
+        _: &mut dyn Observer,
+    ) -> Result<Self, SolveError> {
         S::resume(scene, plan, state)
     }
 
-    fn compute_cycle(&mut self, state: &mut S::State, until: u64) -> Result<(), SolveError> {
-        Sections::compute_cycle(self, state, until)
+    fn contact<'a>(&'a mut self, _: &'a Scene) -> &'a mut S {
+        self
+    }
+}
+
+impl<S: Sections> Contact for &mut S {
+    type State = S::State;
+    type History = ();
+    type Worn = Worn<Vec<StationProfile>>;
+
+    fn load(&mut self) -> Result<S::State, SolveError> {
+        S::load(self)
+    }
+
+    fn compute_cycle(
+        &mut self,
+        state: &mut S::State,
+        until: u64,
+        _: bool,
+    ) -> Result<(), SolveError> {
+        S::compute_cycle(self, state, until)
     }
 
     fn cycle(state: &S::State) -> u64 {
@@ -105,49 +136,59 @@ impl<S: Sections> Contact for S {
         state.fastest_rate()
     }
 
-    fn cycles_left(&self) -> (f64, bool) {
-        let worn_through = matches!(Sections::ending(self), Some(Ending::WornThrough(_)));
-        (Sections::cycles_left(self), worn_through)
+    fn cycles_left(&self, _: &S::State) -> f64 {
+        S::cycles_left(self)
+    }
+
+    fn is_worn_through(&self, _: &S::State) -> bool {
+        matches!(S::ending(self), Some(Ending::WornThrough(_)))
     }
 
     fn ending(&self) -> Option<Outcome> {
-        Sections::ending(self).map(|ending| match ending {
+        S::ending(self).map(|ending| match ending {
             Ending::WornThrough(_) => Outcome::WornThrough,
             Ending::DeeperThanRadius(_) => Outcome::DeeperThanRadius,
         })
     }
 
-    fn areas<'a>(
-        _: &'a S::State,
-        _: &'a S::State,
-    ) -> Option<impl Fn(f64, Sides<f64>) -> AreaContact + 'a> {
-        None::<fn(f64, Sides<f64>) -> AreaContact>
+    /// Nothing conducts: the resistance of sections is not simulated.
+    fn touching(&self, _: &Scene, _: &Evaluation<'_>, _: Change<&S::State>, _: Moment) -> Touching {
+        Touching::default()
     }
 
-    fn worn(&self, state: &S::State) -> Vec<StationProfile> {
+    /// The scars are those over the whole line.
+    fn worn(&self, state: &S::State) -> Worn<Vec<StationProfile>> {
         let sections = 0..state.last().stations.len();
-        sections.map(|section| self.profile(section)).collect()
+        let profiles: Vec<StationProfile> = sections.map(|section| self.profile(section)).collect();
+        Worn {
+            scars: Sides::from_fn(|side| {
+                let cells = profiles.iter().flat_map(|station| station.cells(side));
+                WornArea::of_cells(cells)
+            }),
+            places: profiles,
+        }
     }
 
-    /// The scar over the whole line.
-    fn scars(worn: &Vec<StationProfile>) -> Sides<WornArea> {
-        Sides::from_fn(|side| {
-            let cells = worn.iter().flat_map(|station| station.cells(side));
-            WornArea::of_cells(cells)
-        })
+    fn surface<'a>(
+        &'a self,
+        _: &'a S::State,
+        worn: &'a Worn<Vec<StationProfile>>,
+        side: Side,
+    ) -> impl Exposed + 'a {
+        worn.scars.of(side)
     }
 
     fn report(
         &self,
         scene: &Scene,
         state: &S::State,
-        worn: &Vec<StationProfile>,
+        worn: &Worn<Vec<StationProfile>>,
         _: Option<&ContactResistance>,
     ) -> CycleReport {
         record::line_report(&LineEnd {
             scene,
             cycle: state.last(),
-            profiles: worn,
+            profiles: &worn.places,
             reference: self.reference(),
         })
     }
@@ -156,7 +197,7 @@ impl<S: Sections> Contact for S {
         &self,
         scene: &Scene,
         state: &S::State,
-        worn: Vec<StationProfile>,
+        worn: &Worn<Vec<StationProfile>>,
     ) -> Result<Snapshot, SolveError> {
         let line_fields = if scene.output.fields {
             self.fields(scene, state.last())?
@@ -165,11 +206,12 @@ impl<S: Sections> Contact for S {
         };
         Ok(Snapshot {
             line_fields,
-            ..snapshot(self, state.last(), worn)
+            ..snapshot(&**self, state.last(), &worn.places)
         })
     }
 
-    fn resolution(&self, state: &S::State) -> Resolution {
+    fn resolution(&self, run: &Run<S::State, ()>) -> Resolution {
+        let state = &run.state;
         let (dofs, contact_elements, contact_element_mm) = self.size();
         let (computed_cycles, most_increments) = state.computed();
         Resolution {
@@ -184,7 +226,7 @@ impl<S: Sections> Contact for S {
         }
     }
 
-    fn checks(&self, _: &S::State) -> Checks {
+    fn checks(&self, _: &S::State, _: &CycleReport) -> Checks {
         self.residuals()
     }
 
@@ -194,16 +236,16 @@ impl<S: Sections> Contact for S {
 }
 
 /// The snapshot of a cycle.
-fn snapshot(sections: &impl Sections, cycle: &StationCycle, worn: Vec<StationProfile>) -> Snapshot {
+fn snapshot(sections: &impl Sections, cycle: &StationCycle, worn: &[StationProfile]) -> Snapshot {
     let reports = cycle.stations.iter();
     let stations: Vec<StationSnapshot> = reports
         .zip(worn)
         .enumerate()
         .map(|(number, (report, profile))| StationSnapshot {
             report: *report,
-            receptacle: depths(&profile, Side::Receptacle),
-            slider: depths(&profile, Side::Slider),
-            positions: placed(sections, number, &profile),
+            receptacle: depths(profile, Side::Receptacle),
+            slider: depths(profile, Side::Slider),
+            positions: placed(sections, number, profile),
         })
         .collect();
     let reference = &stations[sections.reference()];
