@@ -7,7 +7,6 @@ mod load;
 mod mission;
 mod progress;
 mod resistance;
-mod section;
 mod step;
 mod summary;
 
@@ -22,6 +21,7 @@ use crate::point::PointIntegrator;
 use crate::record::{Outcome, Summary};
 use crate::scene::{Dimension, Scene};
 use crate::station::LineIntegrator;
+use contact::plane::Plane;
 use contact::{Bodies, Contact, RunOf, RunOfContact};
 use deliver::deliver;
 use load::{Loaded, load_unworn};
@@ -61,9 +61,9 @@ pub(crate) fn by_plan(
     observer: &mut dyn Observer,
 ) -> Result<Summary, SolveError> {
     match (scene.dimension, from) {
-        (Dimension::PlaneStrain, None) => section::begin(scene, plan, earlier.clone(), observer),
+        (Dimension::PlaneStrain, None) => begin::<Plane>(scene, plan, earlier, observer),
         (Dimension::PlaneStrain, Some(Checkpoint::Section(run))) => {
-            section::proceed(scene, plan, *run, observer)
+            proceed::<Plane>(scene, plan, *run, observer)
         }
         (Dimension::Point(_), None) => begin::<PointIntegrator>(scene, plan, earlier, observer),
         (Dimension::Point(_), Some(Checkpoint::Point(run))) => {

@@ -57,11 +57,6 @@ impl<S, H> Run<S, H> {
         mission.map_or(0, |mission| mission.position.block)
     }
 
-    /// The block whose motion the slider has to leave before the next cycle.
-    pub(crate) fn block_left(&self) -> Option<usize> {
-        self.mission.as_ref().and_then(|mission| mission.left)
-    }
-
     /// The motion that the slider has to leave before the next cycle.
     pub(crate) fn motion_left(&self, scene: &Scene) -> Option<Motion> {
         let left = self.mission.as_ref()?.left?;

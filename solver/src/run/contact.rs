@@ -1,7 +1,9 @@
 //! Bodies in contact as a run drives them, and their contact: of a section, a point, a line or extruded bodies.
 
+mod computed;
 mod extruded;
 mod line;
+pub(super) mod plane;
 mod point;
 mod sections;
 
