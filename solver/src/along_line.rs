@@ -1,5 +1,5 @@
-//! Sections along a line: where they lie, and what runs report of them. Of a line of stations they are its stations, of extruded bodies their
-//! node planes.
+//! Contacts that are computed in sections along a line: their cycles, and what runs report of them. The sections of a line are its stations,
+//! those of extruded bodies their node planes.
 
 mod checks;
 mod contact;

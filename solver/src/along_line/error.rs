@@ -42,16 +42,25 @@ pub enum SectionsError {
         /// The body.
         side: &'static str,
     },
-    /// A contact has no solution.
-    #[error(
-        "cycle {cycle}{}: {source}; the increment was halved {halvings} times",
-        number(*section)
-    )]
+    /// The contacts of all sections together have no solution.
+    #[error("cycle {cycle}: {source}; the increment was halved {halvings} times")]
     Contact {
         /// Cycles done.
         cycle: u64,
-        /// Number of the section, if it is solved alone.
-        section: Option<usize>,
+        /// Number of halvings.
+        halvings: u32,
+        /// Why.
+        source: ContactError,
+    },
+    /// The contact of a section has no solution.
+    #[error(
+        "cycle {cycle}, station {station}: {source}; the increment was halved {halvings} times"
+    )]
+    Station {
+        /// Cycles done.
+        cycle: u64,
+        /// Number of the section.
+        station: usize,
         /// Number of halvings.
         halvings: u32,
         /// Why.
@@ -63,8 +72,4 @@ pub enum SectionsError {
     /// A section cannot be condensed.
     #[error(transparent)]
     Operator(#[from] OperatorError),
-}
-
-fn number(section: Option<usize>) -> String {
-    section.map_or_else(String::new, |number| format!(", station {number}"))
 }

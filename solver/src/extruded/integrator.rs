@@ -139,7 +139,6 @@ impl SectionedContact for ExtrudedContact {
         let FailedIncrement { halvings, source } = failed;
         ExtrudedError::Sections(SectionsError::Contact {
             cycle,
-            section: None,
             halvings,
             source,
         })

@@ -25,7 +25,7 @@ pub(crate) trait Attempts {
     /// Computes a cycle that stands for a jump.
     ///
     /// # Errors
-    /// A cycle without a solution; the state is then any.
+    /// A cycle without a solution; the state is then one within it.
     fn attempt(&mut self, jump: u64) -> Result<Self::Record, Self::Error>;
 
     /// Measures the error of a jump; a shorter jump where it is too large.
@@ -37,7 +37,7 @@ pub(crate) trait Attempts {
     /// Goes back to a copy, with the work and the limit of the jump as they are.
     fn go_back(&mut self, before: &Self::Saved);
 
-    /// Widens zones if an error needs it, after which cycles begin with the state as it is; else says what may help.
+    /// Widens zones if an error needs it, and returns what may help.
     ///
     /// # Errors
     /// Wider zones cannot be built.

@@ -23,7 +23,7 @@ use crate::contact::{ContactError, ContactState};
 use crate::cycle::retry::FailedIncrement;
 use crate::cycle::{Checks, Neutral};
 use crate::effects::EffectsPlan;
-use crate::model::{self, Interface};
+use crate::model::{self, BodyModel, Interface};
 use crate::scene::{Motion, Scene, Top};
 use crate::schedule::plan::{CyclePlan, Cycles};
 use crate::threads::Threads;
@@ -98,9 +98,9 @@ impl LineContact {
             let first = &mut self.stations[0];
             first
                 .solve(first_load, None, None)
-                .map_err(|source| SectionsError::Contact {
+                .map_err(|source| SectionsError::Station {
                     cycle: 0,
-                    section: Some(0),
+                    station: 0,
                     halvings: 0,
                     source,
                 })?;
@@ -180,8 +180,8 @@ impl SectionedContact for LineContact {
 
     /// The zones of the station that needs it, with all others as they are.
     fn widen(&mut self, error: &StationError) -> Result<bool, StationError> {
-        let StationError::Sections(SectionsError::Contact {
-            section: Some(station),
+        let StationError::Sections(SectionsError::Station {
+            station,
             source: ContactError::WiderThanZone { .. },
             ..
         }) = *error
@@ -196,9 +196,9 @@ impl SectionedContact for LineContact {
     fn failure(&self, cycle: u64, failed: FailedIncrement<Unsolved>) -> StationError {
         let FailedIncrement { halvings, source } = failed;
         match source {
-            Unsolved::Section { station, source } => SectionsError::Contact {
+            Unsolved::Section { station, source } => SectionsError::Station {
                 cycle,
-                section: Some(station),
+                station,
                 halvings,
                 source,
             }
@@ -291,7 +291,7 @@ impl SectionedContact for LineContact {
 
     fn worn(&self) -> Vec<WornSection<'_>> {
         let bodies = self.unworn.model.bodies.as_ref();
-        let x_mm = bodies.map(|body| body.contact_x());
+        let x_mm = bodies.map(BodyModel::contact_x);
         let stations = self.stations.iter();
         stations.map(|station| station.worn(x_mm)).collect()
     }

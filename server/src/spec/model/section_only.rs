@@ -60,8 +60,9 @@ pub(super) fn pointer(error: &SectionsError) -> &'static str {
         SectionsError::AmplitudeRange(_) => "/motion/amplitude_mm",
         SectionsError::FrictionLaw => "/interface/friction",
         SectionsError::Law { .. } => "/interface/wear",
-        SectionsError::Contact { .. } | SectionsError::Mesh(_) | SectionsError::Operator(_) => {
-            "/model"
-        }
+        SectionsError::Contact { .. }
+        | SectionsError::Station { .. }
+        | SectionsError::Mesh(_)
+        | SectionsError::Operator(_) => "/model",
     }
 }
