@@ -28,6 +28,7 @@ mod run;
 mod scene;
 mod state;
 
+pub(crate) use cycle::ExtrudedContact;
 pub use error::ExtrudedError;
 pub(crate) use integrator::ExtrudedIntegrator;
 pub use record::ExtrudedSummary;

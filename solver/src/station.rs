@@ -38,6 +38,7 @@ mod spacing;
 mod state;
 mod top;
 
+pub(crate) use cycle::LineContact;
 pub use error::StationError;
 pub(crate) use integrator::LineIntegrator;
 pub use record::StationSummary;

@@ -6,7 +6,7 @@ use crate::contact::ContactState;
 use crate::mesh::NodePlanes;
 use crate::model::Model;
 use crate::schedule::step::Position;
-use crate::sides::{Side, Sides};
+use crate::sides::Sides;
 
 impl ExtrudedIntegrator {
     /// The plane in the middle of the width.
@@ -42,11 +42,6 @@ impl ExtrudedIntegrator {
     ) -> impl Iterator<Item = (Position, &[ContactState])> {
         let positions = self.record.positions.iter();
         positions.map(|at| (at.position, &at.contacts[..]))
-    }
-
-    /// The body that carries the tractions.
-    pub(crate) fn slave(&self) -> Side {
-        self.contact.interface.slave
     }
 
     /// Degrees of freedom of both meshes, contact elements of the receptacle, and their size in mm.

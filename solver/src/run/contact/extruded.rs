@@ -1,127 +1,78 @@
 //! The run of extruded bodies: its sections are the node planes of half the width, the reference is the one in the middle.
 
-use super::sections::{Sections, State};
+use super::sections::ReportedSections;
 use crate::SolveError;
-use crate::along_line::{Ending, SectionsError, StationCycle, StationProfile};
+use crate::along_line::{SectionsError, StationCycle};
 use crate::checkpoint::{CheckpointMismatch, ExtrudedRun, Resumable};
-use crate::contact::{ContactState, Work};
-use crate::cycle::FrictionLoop;
+use crate::contact::Work;
 use crate::effects::EffectsPlan;
-use crate::extruded::{ExtrudedError, ExtrudedIntegrator, ExtrudedScene, ExtrudedState};
+use crate::extruded::{
+    ExtrudedContact, ExtrudedError, ExtrudedIntegrator, ExtrudedScene, ExtrudedState,
+};
 use crate::fields::{self, ExtrudedSections, LineFields};
-use crate::record::Checks;
 use crate::scene::Scene;
-use crate::schedule::step::Position;
-use crate::sides::{Side, Sides};
+use crate::sides::Sides;
 
-impl Sections for ExtrudedIntegrator {
-    type State = ExtrudedState;
-
-    fn unworn(scene: &Scene, plan: &EffectsPlan) -> Result<Self, SolveError> {
-        Ok(Self::unloaded(&bodies_of(scene)?, plan)?)
+impl ReportedSections for ExtrudedContact {
+    fn unworn(scene: &Scene, plan: &EffectsPlan) -> Result<ExtrudedIntegrator, SolveError> {
+        Ok(ExtrudedIntegrator::unloaded(&bodies_of(scene)?, plan)?)
     }
 
     fn resume(
         scene: &Scene,
         plan: &EffectsPlan,
         state: &ExtrudedState,
-    ) -> Result<Self, SolveError> {
+    ) -> Result<ExtrudedIntegrator, SolveError> {
         let bodies = bodies_of(scene)?;
         let (found, stations) = (state.last().stations.len(), bodies.node_planes());
         if found != stations {
             return Err(CheckpointMismatch::Stations { found, stations }.into());
         }
-        Ok(Self::resume(&bodies, plan, state)?)
+        Ok(ExtrudedIntegrator::resume(&bodies, plan, state)?)
     }
 
-    fn load(&mut self) -> Result<ExtrudedState, SolveError> {
-        Ok(self.load()?)
-    }
-
-    fn compute_cycle(&mut self, state: &mut ExtrudedState, until: u64) -> Result<(), SolveError> {
-        Ok(self.compute_cycle(state, until)?)
-    }
-
-    fn cycles_left(&self) -> f64 {
-        self.cycles_left()
-    }
-
-    fn ending(&self) -> Option<Ending> {
-        self.ending()
-    }
-
-    fn profile(&self, section: usize) -> StationProfile {
-        self.profile(section)
-    }
-
-    fn contacts(&self, section: usize) -> impl Iterator<Item = (Position, f64, &ContactState)> {
-        self.contacts(section)
-    }
-
-    fn fields(&self, scene: &Scene, last: &StationCycle) -> Result<Vec<LineFields>, SolveError> {
+    fn fields(
+        integrator: &ExtrudedIntegrator,
+        scene: &Scene,
+        last: &StationCycle,
+    ) -> Result<Vec<LineFields>, SolveError> {
         let Some(shape) = scene.dimension.extruded() else {
             return Ok(Vec::new());
         };
-        let (planes, models, operators) = self.condensed();
+        let (planes, models, operators) = integrator.condensed();
         Ok(fields::extruded(&ExtrudedSections {
             shape: *shape,
             planes,
             models,
             operators,
             at: last.stations.iter().map(|plane| plane.at).collect(),
-            depths: self.depths().collect(),
-            contacts: self.contacts_at_positions().collect(),
+            depths: integrator.depths().collect(),
+            contacts: integrator.contacts_at_positions().collect(),
         })?)
     }
 
-    fn slave(&self) -> Side {
-        self.slave()
+    fn reference(integrator: &ExtrudedIntegrator) -> usize {
+        integrator.reference()
     }
 
-    fn reference(&self) -> usize {
-        self.reference()
+    fn size(integrator: &ExtrudedIntegrator) -> (usize, usize, f64) {
+        integrator.size()
     }
 
-    fn friction_loop(&self) -> &FrictionLoop {
-        self.friction_loop()
+    fn fastest_rate(state: &ExtrudedState) -> Sides<f64> {
+        state.fastest_rate()
     }
 
-    fn residuals(&self) -> Checks {
-        self.residuals()
+    fn work(state: &ExtrudedState) -> Work {
+        state.work()
     }
 
-    fn size(&self) -> (usize, usize, f64) {
-        self.size()
+    fn mean_jump_error(state: &ExtrudedState) -> f64 {
+        state.mean_jump_error()
     }
 
     fn resumable(run: &ExtrudedRun) -> Resumable<'_> {
         Resumable::Extruded(run)
-    }
-}
-
-impl State for ExtrudedState {
-    fn last(&self) -> &StationCycle {
-        self.last()
-    }
-
-    fn fastest_rate(&self) -> Sides<f64> {
-        self.fastest_rate()
-    }
-
-    fn computed(&self) -> (u64, usize) {
-        self.computed()
-    }
-
-    fn work(&self) -> Work {
-        self.work()
-    }
-
-    fn relocations(&self) -> u64 {
-        self.relocations()
-    }
-
-    fn mean_jump_error(&self) -> f64 {
-        self.mean_jump_error()
     }
 }
 

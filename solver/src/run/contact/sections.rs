@@ -3,11 +3,12 @@
 
 use super::{Bodies, Contact, Moment, Worn};
 use crate::SolveError;
-use crate::along_line::{Ending, StationCycle, StationProfile};
+use crate::along_line::{
+    Ending, SectionedContact, SectionsIntegrator, SectionsState, StationCycle, StationProfile,
+};
 use crate::change::Change;
 use crate::checkpoint::{Resumable, Run};
-use crate::contact::{ContactState, Work};
-use crate::cycle::FrictionLoop;
+use crate::contact::Work;
 use crate::effects::EffectsPlan;
 use crate::electrical::{ContactResistance, Evaluation, Touching};
 use crate::fields::LineFields;
@@ -17,74 +18,53 @@ use crate::record::{
     StationSnapshot, TractionField, WornArea, tractions,
 };
 use crate::scene::Scene;
-use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
 
-/// Sections along a line, whose cycles a run computes.
-pub(in crate::run) trait Sections: Sized {
-    /// State between two computed cycles.
-    type State: State;
-
+/// Parts of a run of sections along a line that stations and node planes have each in their own way.
+pub(in crate::run) trait ReportedSections:
+    SectionedContact<State: Clone + Sync, Error: Into<SolveError>> + Sized
+{
     /// The unworn sections without load.
-    fn unworn(scene: &Scene, plan: &EffectsPlan) -> Result<Self, SolveError>;
+    fn unworn(scene: &Scene, plan: &EffectsPlan) -> Result<SectionsIntegrator<Self>, SolveError>;
     /// For a state of the same sections.
-    fn resume(scene: &Scene, plan: &EffectsPlan, state: &Self::State) -> Result<Self, SolveError>;
-    /// Applies the load.
-    fn load(&mut self) -> Result<Self::State, SolveError>;
-    /// Computes the next cycle up to a number of them.
-    fn compute_cycle(&mut self, state: &mut Self::State, until: u64) -> Result<(), SolveError>;
-    /// Cycles until the run ends by the depth of a section, at the present rates.
-    fn cycles_left(&self) -> f64;
-    /// Why it cannot be worn on.
-    fn ending(&self) -> Option<Ending>;
+    fn resume(
+        scene: &Scene,
+        plan: &EffectsPlan,
+        state: &SectionsState<Self::State>,
+    ) -> Result<SectionsIntegrator<Self>, SolveError>;
 
-    /// Worn depths of a section.
-    fn profile(&self, section: usize) -> StationProfile;
-    /// Contacts of a section at the named positions of the cycle, with the displacement of the slider, mm.
-    fn contacts(&self, section: usize) -> impl Iterator<Item = (Position, f64, &ContactState)>;
-    /// Fields inside the bodies at the same positions; none where they are not computed.
+    /// Fields inside the bodies at the named positions of the last computed cycle.
     ///
     /// # Errors
     /// [`SolveError`] if a present surface would invert an element, or a mesh cannot be factored.
-    fn fields(&self, _: &Scene, _: &StationCycle) -> Result<Vec<LineFields>, SolveError> {
-        Ok(Vec::new())
-    }
-    /// The body that carries the tractions.
-    fn slave(&self) -> Side;
+    fn fields(
+        integrator: &SectionsIntegrator<Self>,
+        scene: &Scene,
+        last: &StationCycle,
+    ) -> Result<Vec<LineFields>, SolveError>;
     /// The section whose profile stands for all.
-    fn reference(&self) -> usize;
-    /// The friction loop of the cycle.
-    fn friction_loop(&self) -> &FrictionLoop;
-    /// Worst residuals so far.
-    fn residuals(&self) -> Checks;
+    fn reference(integrator: &SectionsIntegrator<Self>) -> usize;
     /// Degrees of freedom, contact elements of the receptacle, and their size in mm.
-    fn size(&self) -> (usize, usize, f64);
+    fn size(integrator: &SectionsIntegrator<Self>) -> (usize, usize, f64);
 
-    /// The run as that of a checkpoint.
-    fn resumable(run: &Run<Self::State, ()>) -> Resumable<'_>;
-}
-
-/// State of sections, as a run reads it.
-pub(in crate::run) trait State: Clone {
-    /// The last computed cycle.
-    fn last(&self) -> &StationCycle;
-    /// Largest wear of a place of each side per cycle in it, mm.
-    fn fastest_rate(&self) -> Sides<f64>;
-    /// Computed cycles, and the most increments of one.
-    fn computed(&self) -> (u64, usize);
+    /// Largest wear of a place of each side per cycle in the last computed one, mm.
+    fn fastest_rate(state: &SectionsState<Self::State>) -> Sides<f64>;
     /// Work of all contact solves.
-    fn work(&self) -> Work;
-    /// Times that sections were condensed again.
-    fn relocations(&self) -> u64;
+    fn work(state: &SectionsState<Self::State>) -> Work;
     /// Estimated relative error of the worn depth by the jumps so far.
-    fn mean_jump_error(&self) -> f64;
+    fn mean_jump_error(state: &SectionsState<Self::State>) -> f64;
+    /// The run as that of a checkpoint.
+    fn resumable(run: &SectionsRun<Self>) -> Resumable<'_>;
 }
 
-impl<S: Sections> Bodies for S {
-    type State = S::State;
+/// A run of sections.
+type SectionsRun<S> = Run<SectionsState<<S as SectionedContact>::State>, ()>;
+
+impl<S: ReportedSections> Bodies for SectionsIntegrator<S> {
+    type State = SectionsState<S::State>;
     type History = ();
     type Contact<'a>
-        = &'a mut S
+        = &'a mut Self
     where
         S: 'a;
 
@@ -95,69 +75,75 @@ impl<S: Sections> Bodies for S {
     fn resumed(
         scene: &Scene,
         plan: &EffectsPlan,
-        state: &mut S::State,
+        state: &mut SectionsState<S::State>,
         _: &mut dyn Observer,
     ) -> Result<Self, SolveError> {
         S::resume(scene, plan, state)
     }
 
-    fn contact<'a>(&'a mut self, _: &'a Scene) -> &'a mut S {
+    fn contact<'a>(&'a mut self, _: &'a Scene) -> &'a mut Self {
         self
     }
 }
 
-impl<S: Sections> Contact for &mut S {
-    type State = S::State;
+impl<S: ReportedSections> Contact for &mut SectionsIntegrator<S> {
+    type State = SectionsState<S::State>;
     type History = ();
     type Worn = Worn<Vec<StationProfile>>;
 
-    fn load(&mut self) -> Result<S::State, SolveError> {
-        S::load(self)
+    fn load(&mut self) -> Result<SectionsState<S::State>, SolveError> {
+        (**self).load().map_err(Into::into)
     }
 
     fn compute_cycle(
         &mut self,
-        state: &mut S::State,
+        state: &mut SectionsState<S::State>,
         until: u64,
         _: bool,
     ) -> Result<(), SolveError> {
-        S::compute_cycle(self, state, until)
+        (**self).compute_cycle(state, until).map_err(Into::into)
     }
 
-    fn cycle(state: &S::State) -> u64 {
+    fn cycle(state: &SectionsState<S::State>) -> u64 {
         state.last().cycle
     }
 
-    fn max_depth_mm(state: &S::State) -> Sides<f64> {
+    fn max_depth_mm(state: &SectionsState<S::State>) -> Sides<f64> {
         state.last().max_depth_mm()
     }
 
-    fn fastest_rate(state: &S::State) -> Sides<f64> {
-        state.fastest_rate()
+    fn fastest_rate(state: &SectionsState<S::State>) -> Sides<f64> {
+        S::fastest_rate(state)
     }
 
-    fn cycles_left(&self, _: &S::State) -> f64 {
-        S::cycles_left(self)
+    fn cycles_left(&self, _: &SectionsState<S::State>) -> f64 {
+        (**self).cycles_left()
     }
 
-    fn is_worn_through(&self, _: &S::State) -> bool {
-        matches!(S::ending(self), Some(Ending::WornThrough(_)))
+    fn is_worn_through(&self, _: &SectionsState<S::State>) -> bool {
+        matches!((**self).ending(), Some(Ending::WornThrough(_)))
     }
 
     fn ending(&self) -> Option<Outcome> {
-        S::ending(self).map(|ending| match ending {
+        (**self).ending().map(|ending| match ending {
             Ending::WornThrough(_) => Outcome::WornThrough,
             Ending::DeeperThanRadius(_) => Outcome::DeeperThanRadius,
         })
     }
 
     /// Nothing conducts: the resistance of sections is not simulated.
-    fn touching(&self, _: &Scene, _: &Evaluation<'_>, _: Change<&S::State>, _: Moment) -> Touching {
+    fn touching(
+        &self,
+        _: &Scene,
+        _: &Evaluation<'_>,
+        _: Change<&SectionsState<S::State>>,
+        _: Moment,
+    ) -> Touching {
         Touching::default()
     }
 
     /// The scars are those over the whole line.
-    fn worn(&self, state: &S::State) -> Worn<Vec<StationProfile>> {
+    fn worn(&self, state: &SectionsState<S::State>) -> Worn<Vec<StationProfile>> {
         let sections = 0..state.last().stations.len();
         let profiles: Vec<StationProfile> = sections.map(|section| self.profile(section)).collect();
         Worn {
@@ -171,7 +157,7 @@ impl<S: Sections> Contact for &mut S {
 
     fn surface<'a>(
         &'a self,
-        _: &'a S::State,
+        _: &'a SectionsState<S::State>,
         worn: &'a Worn<Vec<StationProfile>>,
         side: Side,
     ) -> impl Exposed + 'a {
@@ -181,7 +167,7 @@ impl<S: Sections> Contact for &mut S {
     fn report(
         &self,
         scene: &Scene,
-        state: &S::State,
+        state: &SectionsState<S::State>,
         worn: &Worn<Vec<StationProfile>>,
         _: Option<&ContactResistance>,
     ) -> CycleReport {
@@ -189,54 +175,58 @@ impl<S: Sections> Contact for &mut S {
             scene,
             cycle: state.last(),
             profiles: &worn.places,
-            reference: self.reference(),
+            reference: S::reference(self),
         })
     }
 
     fn snapshot(
         &self,
         scene: &Scene,
-        state: &S::State,
+        state: &SectionsState<S::State>,
         worn: &Worn<Vec<StationProfile>>,
     ) -> Result<Snapshot, SolveError> {
         let line_fields = if scene.output.fields {
-            self.fields(scene, state.last())?
+            S::fields(self, scene, state.last())?
         } else {
             Vec::new()
         };
         Ok(Snapshot {
             line_fields,
-            ..snapshot(&**self, state.last(), &worn.places)
+            ..snapshot(self, state.last(), &worn.places)
         })
     }
 
-    fn resolution(&self, run: &Run<S::State, ()>) -> Resolution {
+    fn resolution(&self, run: &SectionsRun<S>) -> Resolution {
         let state = &run.state;
-        let (dofs, contact_elements, contact_element_mm) = self.size();
+        let (dofs, contact_elements, contact_element_mm) = S::size(self);
         let (computed_cycles, most_increments) = state.computed();
         Resolution {
             contact_element_mm,
             contact_elements,
             increments_per_cycle: u32::try_from(most_increments).unwrap_or(u32::MAX),
             computed_cycles,
-            work: state.work(),
+            work: S::work(state),
             dofs,
             relocations: state.relocations(),
-            estimated_relative_error: state.mean_jump_error(),
+            estimated_relative_error: S::mean_jump_error(state),
         }
     }
 
-    fn checks(&self, _: &S::State, _: &CycleReport) -> Checks {
+    fn checks(&self, _: &SectionsState<S::State>, _: &CycleReport) -> Checks {
         self.residuals()
     }
 
-    fn resumable(run: &Run<S::State, ()>) -> Resumable<'_> {
+    fn resumable(run: &SectionsRun<S>) -> Resumable<'_> {
         S::resumable(run)
     }
 }
 
 /// The snapshot of a cycle.
-fn snapshot(sections: &impl Sections, cycle: &StationCycle, worn: &[StationProfile]) -> Snapshot {
+fn snapshot<S: ReportedSections>(
+    sections: &SectionsIntegrator<S>,
+    cycle: &StationCycle,
+    worn: &[StationProfile],
+) -> Snapshot {
     let reports = cycle.stations.iter();
     let stations: Vec<StationSnapshot> = reports
         .zip(worn)
@@ -248,7 +238,7 @@ fn snapshot(sections: &impl Sections, cycle: &StationCycle, worn: &[StationProfi
             positions: placed(sections, number, profile),
         })
         .collect();
-    let reference = &stations[sections.reference()];
+    let reference = &stations[S::reference(sections)];
     Snapshot {
         cycle: cycle.cycle,
         receptacle: reference.receptacle.clone(),
@@ -270,13 +260,18 @@ fn depths(profile: &StationProfile, side: Side) -> DepthProfile {
 }
 
 /// Tractions of a section at the named positions of the last computed cycle.
-fn placed(sections: &impl Sections, number: usize, profile: &StationProfile) -> Vec<TractionField> {
-    let nodes = profile.x_mm.of(sections.slave());
+fn placed<S: ReportedSections>(
+    sections: &SectionsIntegrator<S>,
+    number: usize,
+    profile: &StationProfile,
+) -> Vec<TractionField> {
+    let slave = sections.contact.interface().slave;
+    let nodes = profile.x_mm.of(slave);
     let contacts = sections.contacts(number);
     contacts
         .map(|(position, slider_x_mm, contact)| TractionField {
             slider_x_mm,
-            ..tractions(position, sections.slave(), nodes, contact)
+            ..tractions(position, slave, nodes, contact)
         })
         .collect()
 }

@@ -3,7 +3,7 @@
 use super::LineIntegrator;
 use crate::condensation::Condensed;
 use crate::model::Model;
-use crate::sides::{Side, Sides};
+use crate::sides::Sides;
 
 impl LineIntegrator {
     /// The station that touches first: across the motion on a ring, in the middle of a crown, at the lower end of a tilt.
@@ -14,11 +14,6 @@ impl LineIntegrator {
             .enumerate()
             .reduce(|lowest, next| if next.1 < lowest.1 { next } else { lowest });
         lowest.map_or(0, |(number, _)| number)
-    }
-
-    /// The body that carries the tractions.
-    pub(crate) fn slave(&self) -> Side {
-        self.contact.unworn.model.interface.slave
     }
 
     /// Does work in the threads of the run.
