@@ -9,6 +9,7 @@ pub mod unworn_contact;
 pub(crate) mod worn_cap;
 pub(crate) mod worn_depth;
 
+pub(crate) use point_scene::CyclePath;
 pub use point_scene::{
     PointAccuracy, PointBody, PointScene, SlipRegime, cell_mm, half_lengths_mm,
     middle_line_load_n_per_mm,

@@ -11,4 +11,4 @@ pub(crate) mod replay;
 pub(crate) mod step;
 pub mod stops;
 pub(crate) mod stroke;
-mod turning_steps;
+pub(crate) mod turning_steps;

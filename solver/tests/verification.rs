@@ -39,6 +39,7 @@ mod verify_periodic_motion;
 mod verify_plated_life;
 mod verify_plating;
 mod verify_point_contact;
+mod verify_point_motions;
 mod verify_point_runs;
 mod verify_pressure_fields;
 mod verify_pressure_history;

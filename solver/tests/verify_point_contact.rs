@@ -13,7 +13,7 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use solver::closed_form::{PointAccuracy, PointBody, PointScene, SlipRegime};
+use solver::closed_form::{CyclePath, PointAccuracy, PointBody, PointScene, SlipRegime};
 use solver::law::elastic::Elastic;
 use solver::law::surface::SurfaceWear;
 use solver::law::wear::WearLaw;
@@ -55,6 +55,7 @@ fn scene((along, across): (f64, f64), k: Sides<f64>, amplitude_mm: f64, cycles: 
         friction: 0.3,
         slip: SlipRegime::Gross,
         amplitude_mm,
+        path: CyclePath::ToAndFro,
         cycles,
         spring_n_per_mm: 0.0,
         accuracy: PointAccuracy::from_tolerance(0.02),

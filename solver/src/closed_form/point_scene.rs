@@ -3,7 +3,8 @@
 use super::hertz;
 use crate::law::elastic::{Elastic, Lame, contact_modulus};
 use crate::law::surface::SurfaceWear;
-use crate::scene::Scene;
+use crate::number::{real, real_cycles};
+use crate::scene::{Motion, Scene, TurningPoints};
 use crate::sides::Sides;
 
 /// Largest amplitude over the half-length of a contact whose surfaces wear in place: what they are displaced over each other by is then
@@ -51,10 +52,37 @@ pub struct PointScene {
     pub slip: SlipRegime,
     /// Amplitude A of the slider, mm: a cycle goes from -A to A and back; one below 0 begins on the other side.
     pub amplitude_mm: f64,
+    /// Path of the slider in a cycle.
+    pub(crate) path: CyclePath,
     /// Cycles to simulate.
     pub cycles: u64,
     /// Grid and integration.
     pub accuracy: PointAccuracy,
+}
+
+/// Path of the slider in a cycle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum CyclePath {
+    /// From one side of the amplitude to the other, and back.
+    ToAndFro,
+    /// Between turning points, from the one at -A on.
+    Turning(TurningPoints),
+    /// Through a contact that stays at its place of the receptacle, mm.
+    Continuous {
+        /// Length, mm.
+        mm: f64,
+    },
+}
+
+impl CyclePath {
+    /// Path of a motion.
+    fn of(motion: Motion) -> Self {
+        match motion {
+            Motion::Reciprocating { .. } => Self::ToAndFro,
+            Motion::Periodic { turns, .. } => Self::Turning(turns),
+            Motion::Continuous { step_mm } => Self::Continuous { mm: step_mm },
+        }
+    }
 }
 
 /// Grid and integration settings.
@@ -172,6 +200,7 @@ impl PointScene {
             slip,
             // Passes begin at the turning point on the side of -A.
             amplitude_mm: -scene.motion.amplitude_mm(),
+            path: CyclePath::of(scene.motion),
             cycles: scene.cycles,
             accuracy: PointAccuracy::from_tolerance(scene.accuracy.tolerance),
         };
@@ -230,7 +259,13 @@ impl PointScene {
         let travel = self.travel_over_receptacle();
         let step = |rate: f64, part: f64| rate * (part * stroke).min(2.0 * half_length);
         let steps = step(rates.slider, 1.0 - travel) + step(rates.receptacle, travel);
-        steps * self.modulus() / half_length
+        let steps = steps * self.modulus() / half_length;
+        match self.path {
+            CyclePath::ToAndFro => steps,
+            // Half of the path is passed to either side.
+            CyclePath::Turning(turns) => steps * turns.path_mm() / (2.0 * stroke),
+            CyclePath::Continuous { .. } => 0.0,
+        }
     }
 
     /// Part of the slider's displacement by which the contact travels over the receptacle.
@@ -238,9 +273,28 @@ impl PointScene {
         self.bodies.slider.curvature().0 / self.curvature().0
     }
 
-    /// Returns `true` if a part of the contact may stick: the amplitude is small against the contact.
+    /// Path of a cycle, mm.
+    pub(crate) fn path_mm(&self) -> f64 {
+        match self.path {
+            CyclePath::ToAndFro => 4.0 * self.amplitude_mm.abs(),
+            CyclePath::Turning(turns) => turns.path_mm(),
+            CyclePath::Continuous { mm } => mm,
+        }
+    }
+
+    /// Mean displacement of a stroke to either side, mm; the whole distance of a continuous motion, which reverses nowhere.
+    pub(crate) fn mean_amplitude_mm(&self) -> f64 {
+        match self.path {
+            CyclePath::ToAndFro => self.amplitude_mm.abs(),
+            CyclePath::Turning(turns) => turns.path_mm() / (2.0 * real(turns.as_slice().len())),
+            CyclePath::Continuous { mm } => mm * real_cycles(self.cycles),
+        }
+    }
+
+    /// Returns `true` if a part of the contact may stick: the slider reverses, and the amplitude is small against the contact.
     pub fn may_stick(&self) -> bool {
-        self.amplitude_mm.abs() <= LARGEST_PARTIAL * self.half_lengths_mm().0
+        let is_continuous = matches!(self.path, CyclePath::Continuous { .. });
+        !is_continuous && self.amplitude_mm.abs() <= LARGEST_PARTIAL * self.half_lengths_mm().0
     }
 
     /// Largest amplitude in mm for which surfaces wear in place, if a part of the contact may stick.

@@ -23,7 +23,7 @@ pub(super) fn value(scene: &Scene, effect: Effect) -> Option<f64> {
         }
         Effect::StickMemory => {
             let contact = PointScene::of(scene, SlipRegime::Gross)?;
-            let amplitude = contact.amplitude_mm.abs();
+            let amplitude = contact.mean_amplitude_mm();
             Some(if amplitude > 0.0 {
                 LOST * contact.onset_of_gross_slip_mm() / amplitude
             } else {

@@ -11,7 +11,7 @@ use crate::effects;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::number::{count_at_least, real, real_cycles};
-use crate::point::JumpControl;
+use crate::point::{JumpControl, legs};
 use crate::scene::Effect;
 use crate::scene::Scene;
 use crate::sides::{Side, Sides};
@@ -100,7 +100,7 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
         let (solves, iterations) = if sticks {
             (STICKING_SOLVES, STICKING_ITERATIONS)
         } else {
-            (solves(&contact, amplitude, worn.along), ITERATIONS)
+            (solves(&contact, worn.along), ITERATIONS)
         };
         let per_half = contact.accuracy.cells_per_half_length;
         let along = 2.0 * WINDOW * per_half * coarsened(worn.along / along);
@@ -131,13 +131,15 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
 const MOST_CYCLES: f64 = 300.0;
 
 /// Contact solves of a cycle of a contact of a half-length, mm.
-fn solves(contact: &PointScene, amplitude: f64, length: f64) -> usize {
+fn solves(contact: &PointScene, length: f64) -> usize {
     let cell = length / contact.accuracy.cells_per_half_length;
-    if amplitude < 0.5 * cell {
+    if contact.amplitude_mm.abs() < 0.5 * cell {
         return 1;
     }
     let step = contact.accuracy.step_over_half_length * length;
-    4 * count_at_least(amplitude / step) + 1
+    let legs = legs(contact).into_iter();
+    let steps = legs.map(|leg| count_at_least(leg.length() / step));
+    steps.sum::<usize>() + 1
 }
 
 /// Cells over the chosen ones of a contact that has grown by a factor and whose cells are merged in pairs.

@@ -4,16 +4,18 @@ use super::check;
 use super::contact_at_position::ContactAtPosition;
 use super::error::PointError;
 use super::jump::{JumpControl, jump_error, rejected, share_in_wear};
+use super::legs::legs;
 use super::point_state::PointState;
 use super::record::PointCycle;
 use super::sliding::Sliding;
 use super::state::State;
 use super::surface::{Surface, WearSums};
 use super::window;
-use crate::closed_form::{PointScene, SlipRegime};
+use crate::closed_form::{CyclePath, PointScene, SlipRegime};
 use crate::law::surface::SurfaceWear;
 use crate::number::real_cycles;
 use crate::schedule::attempts::{Attempts, Remedy, longest_accepted_jump};
+use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
 
 /// Largest step over indentation of a single cycle whose contact is reported without a step, where only one body wears; otherwise its
@@ -109,56 +111,48 @@ impl PointIntegrator {
         Ok(state.last)
     }
 
-    /// Both passes of a computed cycle of a jump; returns the estimated error of its wear.
-    fn pass_both(&mut self, state: &mut PointState, jump: f64) -> Result<f64, PointError> {
+    /// The passes of a computed cycle of a jump; returns the estimated error of its wear.
+    fn pass_all(&mut self, state: &mut PointState, jump: f64) -> Result<f64, PointError> {
         let (scene, sliding) = (&self.scene, &mut self.sliding);
-        // The last pass goes from -A to A or back as the amplitude says; so does the one through the neutral position.
-        let last = -scene.amplitude_mm.signum();
-        let PointState {
-            sliding: present,
-            neutral,
-            turning,
-            increments,
-            ..
-        } = state;
-        let n = present.lattice.amplitude;
         for side in Side::BOTH {
-            present.surfaces.of_mut(side).begin_cycle();
+            state.sliding.surfaces.of_mut(side).begin_cycle();
         }
-        increments.clear();
-        if scene.slip == SlipRegime::Partial {
-            // Under the same pressure one increment a pass would do: slip grows with the displacement without turning.
-            for (direction, end) in [1.0, -1.0].into_iter().zip(turning.iter_mut()) {
-                for at in [&mut *neutral, end] {
-                    sliding.slip_partly(present, direction * scene.amplitude_mm, jump)?;
-                    *at = ContactAtPosition::of(scene, present, direction);
-                    increments.push(at.tangential);
+        let legs = legs(scene);
+        match scene.slip {
+            SlipRegime::Partial => {
+                state.increments.clear();
+                // Under the same pressure one increment a pass would do: slip grows with the displacement without turning.
+                for leg in &legs {
+                    sliding.slip_partly(&mut state.sliding, leg.to - leg.from, jump)?;
+                    let at = ContactAtPosition::of(scene, &state.sliding, leg.direction());
+                    state.increments.push(at.tangential);
+                    state.take_contact(leg.at, at);
                 }
             }
-        } else if n == 0 {
-            sliding.wear_in_place(present, jump)?;
-            *neutral = ContactAtPosition::of(scene, present, last);
-            *turning =
-                [-last, last].map(|direction| ContactAtPosition::of(scene, present, direction));
-        } else {
-            let (start, end) = match present.position {
-                0 => (0, 2 * n),
-                other => (other, 0),
-            };
-            sliding.half_pass(present, n, jump)?;
-            sliding.half_pass(present, end, jump)?;
-            turning[0] = ContactAtPosition::of(scene, present, -last);
-            for side in Side::BOTH {
-                present.surfaces.of_mut(side).turn();
+            SlipRegime::Gross if state.sliding.lattice.amplitude == 0 => {
+                sliding.wear_in_place(&mut state.sliding, jump)?;
+                // The last pass goes from -A to A or back as the amplitude says; so does the one through the neutral position.
+                let last = -scene.amplitude_mm.signum();
+                let contact = |direction| ContactAtPosition::of(scene, &state.sliding, direction);
+                let (neutral, turning) = (contact(last), [-last, last].map(contact));
+                (state.neutral, state.turning) = (neutral, turning);
             }
-            sliding.half_pass(present, n, jump)?;
-            *neutral = ContactAtPosition::of(scene, present, last);
-            sliding.half_pass(present, start, jump)?;
-            turning[1] = ContactAtPosition::of(scene, present, last);
-            if self.wears_once() && self.step(state) < UNSKEWED_TO {
-                let force_n = state.neutral.force_n;
-                let unskewed = self.sliding.unskewed(&state.sliding, jump, force_n)?;
-                state.neutral = ContactAtPosition::of(&self.scene, &unskewed, last);
+            SlipRegime::Gross => {
+                for leg in &legs {
+                    let to = leg.to / scene.amplitude_mm.abs();
+                    let to = state.sliding.lattice.position(to);
+                    sliding.pass(&mut state.sliding, to, leg.length(), jump)?;
+                    if leg.at.is_some() {
+                        let at = ContactAtPosition::of(scene, &state.sliding, leg.direction());
+                        state.take_contact(leg.at, at);
+                    }
+                    if leg.at == Some(Position::Leftmost) {
+                        for side in Side::BOTH {
+                            state.sliding.surfaces.of_mut(side).turn();
+                        }
+                    }
+                }
+                self.remove_skew(state, jump)?;
             }
         }
         let mut sums = WearSums::default();
@@ -172,6 +166,18 @@ impl PointIntegrator {
             SlipRegime::Gross => jump_error(sums),
             SlipRegime::Partial => jump_error(sums) * share_in_wear(sums, state.done),
         })
+    }
+
+    /// Replaces the contact at the neutral position by one without the skew of a jump, where one body wears in two equal passes.
+    fn remove_skew(&mut self, state: &mut PointState, jump: f64) -> Result<(), PointError> {
+        let is_even = self.scene.path == CyclePath::ToAndFro;
+        if is_even && self.wears_once() && self.step(state) < UNSKEWED_TO {
+            let force_n = state.neutral.force_n;
+            let unskewed = self.sliding.unskewed(&state.sliding, jump, force_n)?;
+            let last = -self.scene.amplitude_mm.signum();
+            state.neutral = ContactAtPosition::of(&self.scene, &unskewed, last);
+        }
+        Ok(())
     }
 
     /// Leading-edge step over the indentation that a cycle leaves.
@@ -257,7 +263,7 @@ impl Attempts for PointAttempts<'_> {
     fn attempt(&mut self, jump: u64) -> Result<f64, PointError> {
         let done = self.state.done;
         self.integrator
-            .pass_both(self.state, real_cycles(jump))
+            .pass_all(self.state, real_cycles(jump))
             .map_err(|error| error.at(done))
     }
 

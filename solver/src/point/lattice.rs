@@ -87,6 +87,12 @@ impl Lattice {
         }
     }
 
+    /// Position of the slider nearest to a displacement over the amplitude, from -1 to 1.
+    pub(super) fn position(&self, over_amplitude: f64) -> usize {
+        let n = real(self.amplitude);
+        nearest(n + n * over_amplitude)
+    }
+
     /// Cells that the window may move over the slider to either side.
     fn slack(&self) -> usize {
         if self.travel < 1.0 { self.amplitude } else { 0 }

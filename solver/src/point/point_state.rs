@@ -4,10 +4,12 @@ use serde::{Deserialize, Serialize};
 
 use super::contact_at_position::ContactAtPosition;
 use super::jump::JumpControl;
+use super::legs::{Leg, legs};
 use super::record::{DepthMap, PointCycle};
 use super::state::State;
 use crate::closed_form::PointScene;
 use crate::number::real_cycles;
+use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
 
 /// State of a run between two computed cycles.
@@ -27,6 +29,27 @@ pub struct PointState {
     pub(super) error_sum: f64,
     /// Line load in N/mm and force in N along x at the ends of the increments of the last cycle, where a part may stick.
     pub(super) increments: Vec<(f64, f64)>,
+}
+
+/// A point of the friction loop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct LoopPoint {
+    /// Displacement of the slider, mm.
+    pub(crate) displacement_mm: f64,
+    /// Line load along x of the middle section, N/mm.
+    pub(crate) line_load_n_per_mm: f64,
+    /// Force along x, N.
+    pub(crate) force_n: f64,
+}
+
+impl LoopPoint {
+    fn new(displacement_mm: f64, tangential: (f64, f64)) -> Self {
+        Self {
+            displacement_mm,
+            line_load_n_per_mm: tangential.0,
+            force_n: tangential.1,
+        }
+    }
 }
 
 /// Worst residuals of a run, relative.
@@ -112,37 +135,66 @@ impl PointState {
         &self.turning
     }
 
-    /// The friction loop of the last cycle from the neutral position on: displacements in mm with line loads of the middle section in
-    /// N/mm and forces in N. Of gross slip a rectangle.
-    pub(crate) fn friction_loop(&self, scene: &PointScene) -> Vec<(f64, (f64, f64))> {
-        let a = -scene.amplitude_mm;
-        if let [back, end, forth, start] = self.increments[..] {
-            return vec![
-                (0.0, forth),
-                (a, start),
-                (0.0, back),
-                (-a, end),
-                (0.0, forth),
-            ];
+    /// Takes the contact at the end of a leg of the cycle.
+    pub(super) fn take_contact(&mut self, position: Option<Position>, contact: ContactAtPosition) {
+        let [left, right] = &mut self.turning;
+        match position {
+            Some(Position::Neutral) => self.neutral = contact,
+            Some(Position::Leftmost) => *left = contact,
+            Some(Position::Rightmost) => *right = contact,
+            None => {}
         }
+    }
+
+    /// The friction loop of the last cycle from the neutral position on. Of gross slip a rectangle for each stroke.
+    pub(crate) fn friction_loop(&self, scene: &PointScene) -> Vec<LoopPoint> {
+        let legs = legs(scene);
+        let sticks = !self.increments.is_empty() && self.increments.len() == legs.len();
+        let neutral = legs
+            .iter()
+            .position(|leg| leg.at == Some(Position::Neutral));
+        let first = neutral.map_or(0, |neutral| neutral + 1);
         let forth = self.neutral.tangential;
-        let reversed = |(line, whole): (f64, f64)| (-line, -whole);
-        let [end, start] = self.turning.each_ref().map(|at| at.tangential);
-        vec![
-            (0.0, forth),
-            (a, start),
-            (a, reversed(start)),
-            (-a, end),
-            (-a, reversed(end)),
-            (0.0, forth),
-        ]
+        let mut points = vec![LoopPoint::new(0.0, forth)];
+        for number in (first..legs.len()).chain(0..first) {
+            let leg = &legs[number];
+            if sticks {
+                points.push(LoopPoint::new(leg.to, self.increments[number]));
+                continue;
+            }
+            if leg.turns {
+                let arriving = self.gross_friction(leg);
+                let reversed = (-arriving.0, -arriving.1);
+                points.push(LoopPoint::new(leg.to, arriving));
+                points.push(LoopPoint::new(leg.to, reversed));
+            }
+        }
+        if !sticks && !legs.is_empty() {
+            points.push(LoopPoint::new(0.0, forth));
+        }
+        points
+    }
+
+    /// Line load and force along x at the end of a leg that slips as a whole.
+    fn gross_friction(&self, leg: &Leg) -> (f64, f64) {
+        let [left, right] = self.turning.each_ref().map(|at| at.tangential);
+        match leg.at {
+            Some(Position::Leftmost) => left,
+            Some(Position::Rightmost) => right,
+            // The neutral position is passed to the right.
+            Some(Position::Neutral) | None => {
+                let (line, whole) = self.neutral.tangential;
+                let magnitude = |force: f64| leg.direction() * force.abs();
+                (magnitude(line), magnitude(whole))
+            }
+        }
     }
 
     /// Worst residuals so far.
     pub(crate) fn residuals(&self, scene: &PointScene) -> Residuals {
         let (force, contact) = self.sliding.worst_residuals;
         let forces = self.friction_loop(scene).into_iter();
-        let most = forces.fold(0.0, |most: f64, (_, (_, whole))| most.max(whole.abs()));
+        let most = forces.fold(0.0, |most: f64, point| most.max(point.force_n.abs()));
         // A spring presses most before its contact wears in the cycle.
         let [left, right] = self.turning.each_ref().map(|at| at.force_n);
         let limit = scene.friction * self.neutral.force_n.max(left).max(right);

@@ -95,19 +95,19 @@ impl Sliding {
         state: &mut State,
         cycles: f64,
     ) -> Result<(), PointError> {
-        self.slide(state, 0, 4.0 * self.scene.amplitude_mm.abs(), cycles)
+        self.slide(state, 0, self.scene.path_mm(), cycles)
     }
 
-    /// Half of a pass, between a turning point and the neutral position, of a number of cycles.
-    pub(super) fn half_pass(
+    /// A part of a pass to a position over a length in mm, of a number of cycles.
+    pub(super) fn pass(
         &mut self,
         state: &mut State,
         to: usize,
+        length: f64,
         cycles: f64,
     ) -> Result<(), PointError> {
         let from = state.position;
         let cells = from.abs_diff(to);
-        let length = self.scene.amplitude_mm.abs();
         let (along, _) = half_lengths(&state.pressure);
         let step = nearest((self.scene.accuracy.step_over_half_length * along).floor()).max(1);
         let count = cells.div_ceil(step).max(1);

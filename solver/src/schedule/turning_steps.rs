@@ -10,14 +10,14 @@ use crate::scene::TurningPoints;
 /// Part of a step that round-off may add to a stroke without another step.
 const ROUND_OFF: f64 = 1e-9;
 
-/// A part of a stroke in equal steps.
-#[derive(Debug, Clone, Copy)]
-struct Part {
+/// A part of a stroke in equal steps, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Part {
     stroke: usize,
-    from: f64,
-    to: f64,
+    pub(crate) from: f64,
+    pub(crate) to: f64,
     /// The named position at its end.
-    at: Option<Position>,
+    pub(crate) at: Option<Position>,
 }
 
 impl Part {
@@ -89,7 +89,7 @@ pub(super) fn named(turns: &TurningPoints, count: usize) -> [Named; 3] {
 }
 
 /// The strokes, that of the last way through the neutral position in two parts.
-fn parts(turns: &TurningPoints) -> Vec<Part> {
+pub(crate) fn parts(turns: &TurningPoints) -> Vec<Part> {
     let direction = turns.amplitude_mm().signum();
     let strokes: Vec<(f64, f64)> = turns.strokes().collect();
     let passes = |&(from, to): &(f64, f64)| from * direction < 0.0 && to * direction >= 0.0;

@@ -31,13 +31,6 @@ pub(super) fn choose(
         ..
     } = line.extent();
     let plane = line.section(section.clone(), is_force);
-    if let Some(reason) = lacks(&plane, spec) {
-        return Chosen {
-            scene: plane,
-            dimension: Dimension::PlaneStrain,
-            reason,
-        };
-    }
     let force_n = plane.load_n_per_mm * width_mm;
     let whole = Scene {
         spring_n_per_mm2: plane.spring_n_per_mm2 * width_mm,
@@ -60,6 +53,13 @@ pub(super) fn choose(
         }
         Choice::Crown { .. } => (Dimension::Point, reason),
     };
+    if let Some(reason) = lacks(&plane, dimension, spec) {
+        return Chosen {
+            scene: plane,
+            dimension: Dimension::PlaneStrain,
+            reason,
+        };
+    }
     let scene = match (dimension, crown_radius_mm) {
         (Dimension::Line, _) => line.with_dimension(section, is_force, spec, diagnostics),
         (Dimension::Point, Some(crown)) => {
@@ -74,10 +74,13 @@ pub(super) fn choose(
     }
 }
 
-/// Why the contact can be simulated in plane strain alone.
-fn lacks(plane: &Scene, spec: &Spec) -> Option<String> {
+/// Why the contact cannot be simulated in a dimension but plane strain.
+fn lacks(plane: &Scene, dimension: Dimension, spec: &Spec) -> Option<String> {
+    if dimension == Dimension::PlaneStrain {
+        return None;
+    }
     let mut of_candidate = Diagnostics::default();
-    section_only::check(spec, "line", plane.motion, &mut of_candidate);
+    section_only::check(spec, dimension.as_str(), plane.motion, &mut of_candidate);
     section_only::check_laws(plane, "contact of finite width", &mut of_candidate);
     let fault = of_candidate.into_faults().into_iter().next()?;
     Some(format!("{}: {}", fault.pointer, fault.detail))

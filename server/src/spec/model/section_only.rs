@@ -14,9 +14,9 @@ const HAS_FIELDS: [&str; 3] = ["extruded", "line", "ring"];
 pub(super) fn check(filled: &Spec, name: &str, motion: Motion, diagnostics: &mut Diagnostics) {
     if !filled.mission.is_empty() {
         diagnostics.fault("/mission", "missions are simulated in `plane_strain` alone");
-    } else if !matches!(motion, Motion::Reciprocating { .. }) {
+    } else if name != "point" && !matches!(motion, Motion::Reciprocating { .. }) {
         let detail = format!(
-            "the contact of a `{name}` reciprocates between two turning points; other motions are simulated in `plane_strain` alone"
+            "the contact of a `{name}` reciprocates between two turning points; other motions are simulated in `plane_strain` and as a `point`"
         );
         diagnostics.fault("/motion/kind", detail);
     }

@@ -3,7 +3,7 @@ mod partial_slip;
 use std::f64::consts::PI;
 
 use super::*;
-use crate::closed_form::{PointAccuracy, PointBody, SlipRegime};
+use crate::closed_form::{CyclePath, PointAccuracy, PointBody, SlipRegime};
 use crate::law::elastic::Elastic;
 use crate::law::plating::Layer;
 use crate::law::surface::SurfaceWear;
@@ -45,6 +45,7 @@ fn sphere_on_flat(k: Sides<f64>, amplitude_mm: f64, cycles: u64) -> PointScene {
         friction: 0.5,
         slip: SlipRegime::Gross,
         amplitude_mm,
+        path: CyclePath::ToAndFro,
         cycles,
         spring_n_per_mm: 0.0,
         accuracy: PointAccuracy::from_tolerance(0.02),
@@ -69,7 +70,7 @@ fn one_pass_of_a_sphere_leaves_the_track_of_its_line_loads() {
     sliding.load(&mut state).expect("it can be loaded");
     let n = state.lattice.amplitude;
     for to in [n, 2 * n] {
-        sliding.half_pass(&mut state, to, 1.0).expect("it slides");
+        sliding.pass(&mut state, to, 0.8, 1.0).expect("it slides");
     }
     let surface = &state.surfaces.receptacle;
     let cells = surface.dose.cells(state.lattice.size_mm);

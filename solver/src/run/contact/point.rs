@@ -12,7 +12,7 @@ use crate::electrical::{AreaContact, ContactResistance, Evaluation, Touching};
 use crate::interpolation::part_way;
 use crate::number::count;
 use crate::observer::Observer;
-use crate::point::{ContactAtPosition, DepthMap, PointError, PointIntegrator, PointState};
+use crate::point::{ContactAtPosition, DepthMap, PointError, PointIntegrator, PointState, legs};
 use crate::record::{
     self, AreaMaps, Checks, CycleReport, DepthProfile, Exposed, FrictionLoop, PointEnd, Position,
     PressureMap, Resolution, Snapshot, TractionField, WornArea,
@@ -127,12 +127,12 @@ impl Contact for &mut PointIntegrator {
 
     fn snapshot(
         &self,
-        scene: &Scene,
+        _: &Scene,
         state: &PointState,
         worn: &Worn<Sides<DepthMap>>,
     ) -> Result<Snapshot, SolveError> {
         let depth = worn.places.clone();
-        Ok(snapshot(scene, self.scene(), state, depth))
+        Ok(snapshot(self.scene(), state, depth))
     }
 
     fn resolution(&self, run: &PointRun) -> Resolution {
@@ -198,12 +198,7 @@ fn contact_of(scene: &Scene, plan: &EffectsPlan) -> Result<PointScene, PointErro
 }
 
 /// The snapshot of the present state.
-fn snapshot(
-    scene: &Scene,
-    contact: &PointScene,
-    state: &PointState,
-    depth: Sides<DepthMap>,
-) -> Snapshot {
+fn snapshot(contact: &PointScene, state: &PointState, depth: Sides<DepthMap>) -> Snapshot {
     let profile = |side| {
         let map: &DepthMap = depth.of(side);
         DepthProfile {
@@ -211,21 +206,25 @@ fn snapshot(
             depth_mm: map.section(),
         }
     };
-    let amplitude = scene.motion.amplitude_mm();
     // Cycles begin at the right turning point.
     let [left, right] = state.turning();
-    let placed = [
-        (Position::Neutral, 0.0, state.neutral()),
-        (Position::Rightmost, amplitude, right),
-        (Position::Leftmost, -amplitude, left),
-    ];
-    // Before the first cycle there are no turning points.
-    let count = if state.cycle() == 0 { 1 } else { placed.len() };
+    let end_of = |position| {
+        let legs = legs(contact).into_iter();
+        let mut ends = legs.filter(move |leg| leg.at == Some(position));
+        ends.next().map(|leg| leg.to)
+    };
+    let mut placed = vec![(Position::Neutral, 0.0, state.neutral())];
+    // Before the first cycle, and in a continuous motion, there are no turning points.
+    if state.cycle() > 0 {
+        let turning = [(Position::Rightmost, right), (Position::Leftmost, left)];
+        let turning = turning.into_iter();
+        placed.extend(turning.filter_map(|(position, at)| Some((position, end_of(position)?, at))));
+    }
     Snapshot {
         cycle: state.cycle(),
         receptacle: profile(Side::Receptacle),
         slider: profile(Side::Slider),
-        positions: placed[..count]
+        positions: placed
             .iter()
             .map(|&(position, slider_x_mm, placed)| tractions(position, slider_x_mm, placed))
             .collect(),
@@ -264,10 +263,12 @@ fn pressure_map(placed: &ContactAtPosition) -> PressureMap {
 /// The loop of the last cycle.
 fn friction_loop(contact: &PointScene, state: &PointState) -> FrictionLoop {
     let mut found = FrictionLoop::default();
-    for (displacement, (line, whole)) in state.friction_loop(contact) {
-        found.displacement_mm.push(displacement);
-        found.tangential_force_n_per_mm.push(line);
-        found.tangential_force_n.push(whole);
+    for point in state.friction_loop(contact) {
+        found.displacement_mm.push(point.displacement_mm);
+        found
+            .tangential_force_n_per_mm
+            .push(point.line_load_n_per_mm);
+        found.tangential_force_n.push(point.force_n);
     }
     found
 }
