@@ -19,7 +19,8 @@ string_enum! {
         Ring = "ring",
         /// Bodies of a width whose ends are free or held, in layers of solid elements.
         Extruded = "extruded",
-        /// `plane_strain`, `line` or `point`, whichever a slider of a width with a crown or a tilt requires.
+        /// `plane_strain`, `line` or `point`, whichever a slider of a width with a crown or a tilt requires; `point` for a radius across without
+        /// a width.
         Auto = "auto",
     }
 }
@@ -77,7 +78,8 @@ pub struct Model {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<Dimension>)]
     pub dimension: Option<EnumValue<Dimension>>,
-    /// `point`: radius of the slider in the plane across the sliding direction, mm; that of the section if absent, as of a ball.
+    /// `point`: radius of the slider in the plane across the sliding direction, mm; that of the section if absent, as of a ball. `auto`: the
+    /// same, instead of a width.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius_z_mm: Option<f64>,
     /// `ring`: outer diameter of the ring of wire, mm.

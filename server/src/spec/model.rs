@@ -25,8 +25,13 @@ use line::Line;
 pub(super) enum Resolved {
     /// A section.
     PlaneStrain,
-    /// A point contact with the radius of the slider across, mm.
-    Point { radius_across_mm: f64 },
+    /// A point contact.
+    Point {
+        /// Radius of the slider across, mm.
+        radius_across_mm: f64,
+        /// True if `auto` has chosen it.
+        is_chosen: bool,
+    },
     /// A contact along a line.
     Line(Line),
     /// Extruded bodies.
@@ -57,15 +62,13 @@ pub(super) fn resolve(
             let (filled, extruded) = extruded::resolve(&model, kind, diagnostics);
             (extruded::FIELDS, filled, Resolved::Extruded(extruded))
         }
+        // Without a width a contact has no ends: the radius across makes it small.
+        Dimension::Auto if model.width_mm.is_none() && model.radius_z_mm.is_some() => {
+            let (filled, resolved) = round(&model, shapes, true, diagnostics);
+            (&["dimension", "radius_z_mm", "chosen"], filled, resolved)
+        }
         Dimension::Point => {
-            let pointer = "/model/radius_z_mm";
-            let default = assumed(shapes.slider.radius_mm);
-            let radius_across_mm = length(pointer, model.radius_z_mm, default, diagnostics);
-            let filled = Model {
-                radius_z_mm: Some(radius_across_mm),
-                ..Model::default()
-            };
-            let resolved = Resolved::Point { radius_across_mm };
+            let (filled, resolved) = round(&model, shapes, false, diagnostics);
             (&["dimension", "radius_z_mm"], filled, resolved)
         }
         Dimension::Line | Dimension::Ring | Dimension::Auto => {
@@ -83,6 +86,27 @@ pub(super) fn resolve(
         preset: model.preset,
         dimension: Some(dimension.into()),
         ..filled
+    };
+    (filled, resolved)
+}
+
+/// Resolves a slider that is round across the sliding direction.
+fn round(
+    given: &Model,
+    shapes: &Shapes,
+    is_chosen: bool,
+    diagnostics: &mut Diagnostics,
+) -> (Model, Resolved) {
+    let default = assumed(shapes.slider.radius_mm);
+    let pointer = "/model/radius_z_mm";
+    let radius_across_mm = length(pointer, given.radius_z_mm, default, diagnostics);
+    let filled = Model {
+        radius_z_mm: Some(radius_across_mm),
+        ..Model::default()
+    };
+    let resolved = Resolved::Point {
+        radius_across_mm,
+        is_chosen,
     };
     (filled, resolved)
 }
@@ -123,14 +147,22 @@ pub(super) fn with_dimension(
     let is_force = load.is_some_and(|load| load.kind == LoadKind::Force.into());
     let scene = match model {
         Resolved::PlaneStrain => scene,
-        Resolved::Point { radius_across_mm } => {
+        Resolved::Point {
+            radius_across_mm,
+            is_chosen,
+        } => {
             section_only::check_laws(&scene, "point contact", diagnostics);
-            match force_n {
+            let scene = match force_n {
                 None => scene,
                 Some(force_n) => {
                     point::with_dimension(scene, Some(radius_across_mm), force_n, diagnostics)
                 }
+            };
+            if is_chosen {
+                let reason = "model `point`: a radius across the sliding direction without a width";
+                return (scene, Some((Dimension::Point, reason.to_owned())));
             }
+            scene
         }
         Resolved::Line(line) => {
             section_only::check_laws(&scene, "contact along a line", diagnostics);

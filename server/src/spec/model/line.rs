@@ -139,6 +139,10 @@ fn straight(
 ) -> (Model, LineShape) {
     let mut width_mm = 1.0;
     match given.width_mm {
+        None if dimension == Dimension::Auto => diagnostics.missing(
+            "/model/width_mm",
+            "`auto` needs it, or `radius_z_mm` of a slider that is round across the sliding direction",
+        ),
         None => diagnostics.missing(
             "/model/width_mm",
             &format!("`{}` needs it", dimension.as_str()),

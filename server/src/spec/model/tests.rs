@@ -4,7 +4,7 @@ mod extruded;
 mod lines;
 
 use api::spec::{Dimension as Named, Provenance};
-use solver::scene::Dimension;
+use solver::scene::{Dimension, Motion};
 
 use crate::spec::{Refused, Resolved, read};
 
@@ -88,10 +88,6 @@ fn fields_that_mean_nothing_in_a_dimension_are_refused() {
         (r#","load":{"kind":"pressure","mpa":1}"#, "/load/kind"),
         (r#","output":{"fields":true}"#, "/output/fields"),
         (
-            r#","motion":{"kind":"continuous","distance_mm":10}"#,
-            "/motion/kind",
-        ),
-        (
             r#","mission":[{"motion":{"kind":"reciprocating"},"cycles":1},{"motion":{"kind":"reciprocating","amplitude_mm":0.1},"cycles":1}]"#,
             "/mission",
         ),
@@ -112,6 +108,37 @@ fn fields_that_mean_nothing_in_a_dimension_are_refused() {
             "{rest}: {found:?}"
         );
     }
+}
+
+#[test]
+fn a_point_has_the_motions_of_a_section() {
+    let series = r#","motion":{"kind":"fourier","terms":[{"order":1,"sine_mm":0.02},{"order":3,"sine_mm":0.02}]}"#;
+    let turning = accepted(&ball(series)).scene;
+    assert!(matches!(turning.motion, Motion::Periodic { .. }));
+    assert!(matches!(turning.dimension, Dimension::Point(_)));
+    let rest = r#","interface":{"wear":{"slider":null}},"plating":{"slider":[]},"motion":{"kind":"continuous","distance_mm":10}"#;
+    let continuous = accepted(&ball(rest)).scene;
+    assert!(matches!(continuous.motion, Motion::Continuous { .. }));
+}
+
+#[test]
+fn auto_takes_a_radius_across_without_a_width_as_a_point() {
+    let with = |model: &str| {
+        accepted(&format!(
+            r#"{{"system":{{"kind":"sd_card"}},"model":{model}}}"#
+        ))
+    };
+    let auto = with(r#"{"dimension":"auto","radius_z_mm":2}"#);
+    assert_eq!(
+        auto.scene,
+        with(r#"{"dimension":"point","radius_z_mm":2}"#).scene
+    );
+    let model = auto.spec.model.as_ref().expect("it is filled in");
+    assert_eq!(model.chosen, Some(Named::Point.into()));
+    let again = accepted(&serde_json::to_string(&auto.spec).expect("JSON"));
+    assert_eq!(again.scene, auto.scene);
+    let neither = r#"{"system":{"kind":"sd_card"},"model":{"dimension":"auto"}}"#;
+    assert_eq!(pointers(neither), ["/model/width_mm"]);
 }
 
 #[test]
