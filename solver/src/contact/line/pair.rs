@@ -45,17 +45,34 @@ impl<'a> Pair<'a> {
         slave: Range<usize>,
         master: Range<usize>,
     ) -> Result<Zones<'a>, ContactError> {
-        let zone = |side: Side, range: Range<usize>| {
-            let body = self.operators.of(side);
+        let with_loaded = |side: Side, range: Range<usize>| {
             let loaded = last.loaded(side);
-            let range = if loaded.is_empty() {
+            if loaded.is_empty() {
                 range
             } else {
                 range.start.min(loaded.start)..range.end.max(loaded.end)
-            };
+            }
+        };
+        let side = self.interface.slave;
+        let (slave, master) = (with_loaded(side, slave), with_loaded(side.other(), master));
+        self.zones_of(last.slider_x, slave, master)
+    }
+
+    /// The zones that hold these ranges of nodes.
+    ///
+    /// # Errors
+    /// [`ContactError::WiderThanZone`] if a body has no such zone.
+    pub(super) fn zones_of(
+        &self,
+        slider_x: f64,
+        slave: Range<usize>,
+        master: Range<usize>,
+    ) -> Result<Zones<'a>, ContactError> {
+        let zone = |side: Side, range: Range<usize>| {
+            let body = self.operators.of(side);
             body.zone(&range)
                 .ok_or_else(|| ContactError::WiderThanZone {
-                    slider_x_mm: last.slider_x,
+                    slider_x_mm: slider_x,
                     nodes: range.len(),
                     body: side.name(),
                     zone: body
