@@ -6,6 +6,9 @@
 //! relative to the wear of the step, and that of a coefficient of friction that follows from the wear (`cycle/friction.rs`). The next
 //! jump scales with the tolerance over e. A coefficient of friction by cycle bounds it too, and no jump passes a point of its table.
 
+mod formula;
+pub(crate) mod implicit;
+
 use serde::{Deserialize, Serialize};
 
 use super::stroke::Stroke;
@@ -13,6 +16,7 @@ use crate::change::Change;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::Accuracy;
 use crate::sides::{Side, Sides};
+pub(crate) use formula::Formula;
 
 /// A jump without a solution is divided by this; jumps may double again afterwards. Arbitrary: no result depends on it
 /// as long as one of the jumps has a solution.
@@ -61,6 +65,8 @@ pub struct JumpControl {
     done: u64,
     /// Largest jump after one without a solution; 0 if none failed recently.
     most: u64,
+    /// Formula of the last jump.
+    formula: Formula,
 }
 
 /// The wear of a jump that was shortened below this part differs in shape from that of long ones, by the step that a jump
@@ -150,6 +156,7 @@ impl JumpControl {
         self.last = jump;
         self.done += jump;
         self.friction = friction;
+        self.formula = Formula::ComputedCycle;
         self.most = self.most.saturating_mul(2);
         if dn < SHORT * self.unshortened {
             return;
