@@ -18,6 +18,7 @@ mod friction;
 mod groove;
 mod half_width;
 mod heating;
+mod implicit;
 mod increment;
 mod mission_state;
 mod motion_history;
@@ -48,6 +49,7 @@ pub use checks::Checks;
 pub use cycle_record::{CycleRecord, FrictionLoop, Neutral};
 pub(crate) use half_width::MeanHalfWidth;
 use heating::Heating;
+use implicit::ImplicitJumps;
 pub use mission_state::BlockWear;
 pub(crate) use mission_state::MissionState;
 pub use motion_history::MotionHistory;
@@ -92,6 +94,7 @@ pub struct Integrator<'a> {
     timed: TimedMotion,
     stroke: usize,
     next: ContactState,
+    implicit: ImplicitJumps,
 }
 
 impl<'a> Integrator<'a> {
@@ -121,6 +124,7 @@ impl<'a> Integrator<'a> {
             timed,
             stroke: 0,
             next,
+            implicit: ImplicitJumps::default(),
         }
     }
 

@@ -35,6 +35,9 @@ impl Integrator<'_> {
     ) -> Result<CycleRecord, CycleError> {
         self.heat(state)?;
         let stroke = self.stroke(state);
+        if let Some(record) = self.implicit_jump(state, stroke, until, is_reported)? {
+            return Ok(record);
+        }
         let remaining = until - state.cycle;
         let jump = state.jump.next(&self.scene.accuracy, stroke, remaining);
         let mut attempts = CycleAttempts {

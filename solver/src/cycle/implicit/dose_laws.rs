@@ -1,0 +1,56 @@
+//! Depths over doses of both surfaces.
+
+use crate::law::surface::SurfaceWear;
+use crate::sides::{Side, Sides};
+
+/// Wear of both surfaces, each a function of the dose.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct DoseLaws(Sides<Option<SurfaceWear>>);
+
+impl DoseLaws {
+    /// The laws of surfaces that wear by dose alone, one of them at least.
+    pub(super) fn of(wear: &Sides<Option<SurfaceWear>>) -> Option<Self> {
+        let is_by_dose = |wear: Option<SurfaceWear>| wear.is_none_or(|wear| rate(wear) > 0.0);
+        let wears = wear.slider.is_some() || wear.receptacle.is_some();
+        (wears && is_by_dose(wear.slider) && is_by_dose(wear.receptacle)).then_some(Self(*wear))
+    }
+
+    /// The sides that wear.
+    pub(super) fn wears(&self) -> Sides<bool> {
+        self.0.map(|wear| wear.is_some())
+    }
+
+    /// Rate at which the equivalent of a side grows by the dose, 1/MPa; 0 of one that does not wear.
+    pub(super) fn rate(&self, side: Side) -> f64 {
+        self.0.of(side).map_or(0.0, rate)
+    }
+
+    /// Doses of depths in mm, MPa mm; none of a side that does not wear.
+    pub(super) fn doses(&self, depth: &Sides<Vec<f64>>) -> Sides<Vec<f64>> {
+        Sides::from_fn(|side| match self.0.of(side) {
+            None => vec![0.0; depth.of(side).len()],
+            Some(wear) => {
+                let dose = |depth: &f64| wear.equivalent(*depth) / rate(*wear);
+                depth.of(side).iter().map(dose).collect()
+            }
+        })
+    }
+
+    /// Depth of a dose, mm.
+    pub(super) fn depth(&self, side: Side, dose: f64) -> f64 {
+        self.0
+            .of(side)
+            .map_or(0.0, |wear| wear.depth(dose * rate(wear)))
+    }
+
+    /// Specific wear rate at a depth in mm, 1/MPa.
+    pub(super) fn slope(&self, side: Side, depth: f64) -> f64 {
+        let wear = self.0.of(side);
+        wear.map_or(0.0, |wear| wear.relative_rate(depth) * rate(wear))
+    }
+}
+
+/// Rate at which the equivalent grows by the dose, 1/MPa; 0 of one whose wear is no function of the dose.
+fn rate(wear: SurfaceWear) -> f64 {
+    wear.dose_rate().unwrap_or(0.0)
+}
