@@ -20,6 +20,12 @@ fn archard(k_over_h_per_mpa: f64) -> WearLaw {
     WearLaw::Archard { k_over_h_per_mpa }
 }
 
+/// A scene whose jumps are implicit where they can be.
+fn implicit(mut scene: Scene) -> Scene {
+    scene.accuracy.tuning.implicit_jumps = true;
+    scene
+}
+
 fn deepest(side: Side, depth_mm: f64) -> Criterion {
     Criterion {
         side,
@@ -36,7 +42,7 @@ struct Plated {
 
 /// The sprung contact with these sides until the tip's first layer, or the pad's if only that wears, is through twice over.
 fn thinly_plated(sides: Sides<Option<Plated>>) -> Scene {
-    let mut scene = sprung_contact();
+    let mut scene = implicit(sprung_contact());
     let of = |side: Option<Plated>| match side {
         None => (None, Vec::new()),
         Some(Plated { layers, base }) => (Some(archard(base)), layers),
@@ -208,7 +214,7 @@ const PRESETS: [Preset; 3] = [
 
 /// A preset until the base metal of its tip lies open.
 fn until_base_metal(preset: &Preset) -> Scene {
-    let mut scene = sprung_contact();
+    let mut scene = implicit(sprung_contact());
     scene.slider.shape = preset.slider;
     scene.slider.elastic = preset.elastic;
     scene.slider.wear = Some(archard(preset.base));

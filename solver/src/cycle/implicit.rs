@@ -30,7 +30,7 @@ use crate::contact::ContactError;
 use crate::law::surface;
 use crate::model::Tangential;
 use crate::number::real_cycles;
-use crate::scene::{Friction, Motion};
+use crate::scene::Motion;
 use crate::schedule::increments;
 use crate::schedule::jump::{CUT, Formula};
 use crate::schedule::step::Step;
@@ -121,11 +121,9 @@ impl Integrator<'_> {
     /// The laws of a contact whose jumps are implicit.
     fn dose_laws(&self, state: &CycleState, stroke: Stroke) -> Option<DoseLaws> {
         let (scene, interface) = (self.scene, &self.pair.interface);
-        let is_simple = matches!(scene.motion, Motion::Reciprocating { .. })
-            && matches!(
-                scene.friction,
-                Friction::Frictionless | Friction::Coulomb { .. }
-            )
+        let is_simple = scene.accuracy.tuning.implicit_jumps
+            && matches!(scene.motion, Motion::Reciprocating { .. })
+            && !scene.friction.changes()
             && interface.tangential != Tangential::StickSlip
             && scene.cycles_at_a_time.is_none()
             && scene.accuracy.cycle_jump.is_none()

@@ -43,6 +43,7 @@ fn scene() -> Scene {
     };
     scene.accuracy = Accuracy::from_tolerance(0.1);
     scene.accuracy.increments_per_cycle = Some(60);
+    scene.accuracy.tuning.implicit_jumps = true;
     scene.stop.clear();
     scene.life.clear();
     scene
