@@ -16,6 +16,7 @@
 //! of a single cycle that hardly reshapes the contact; no groove whose cycles are extrapolated (`extrapolation`). A slider that climbs a slope s slides by s^2 farther than its displacement, which is left out. Everything else,
 //! and a single cycle that does not converge, is integrated by computed cycles.
 
+mod attempts;
 mod buffers;
 mod contacts;
 mod dose_laws;
@@ -31,11 +32,13 @@ use crate::law::surface;
 use crate::model::Tangential;
 use crate::number::real_cycles;
 use crate::scene::Motion;
+use crate::schedule::attempts::longest_accepted_jump;
 use crate::schedule::increments;
-use crate::schedule::jump::{CUT, Formula};
+use crate::schedule::jump::Formula;
 use crate::schedule::step::Step;
 use crate::schedule::stroke::Stroke;
 use crate::sides::{Side, Sides};
+use attempts::JumpAttempts;
 pub(super) use buffers::ImplicitJumps;
 use contacts::Bodies;
 use dose_laws::DoseLaws;
@@ -46,13 +49,6 @@ use positions::{CyclePosition, positions};
 /// Largest pressure skew of a single cycle by the wear that the contact as a whole has, k s E*/b: the pressure is off by about a third of
 /// it.
 const LARGEST_SKEW: f64 = 0.1;
-
-/// A jump to be made.
-#[derive(Debug, Clone, Copy)]
-struct Attempt<'a> {
-    laws: &'a DoseLaws,
-    jump: u64,
-}
 
 impl Integrator<'_> {
     /// Makes a jump that is implicit in the worn shapes, as long as the jump control and `until` allow; `None` where computed cycles
@@ -70,51 +66,32 @@ impl Integrator<'_> {
         let Some(laws) = self.dose_laws(state, stroke) else {
             return Ok(None);
         };
-        let accuracy = self.scene.accuracy;
-        let before = state.clone();
-        let mut jump = state
+        let control = state.jump.clone();
+        let remaining = until - state.cycle;
+        let jump = state
             .jump
-            .next_implicit(&accuracy, stroke, until - state.cycle);
-        loop {
-            let is_last = before.cycle + jump == until;
-            let detailed = (is_last && is_reported) || self.scene.has_stops();
-            self.update_surfaces(state, real_cycles(jump));
-            let shorter = match self.attempt(state, Attempt { laws: &laws, jump }, detailed) {
-                Ok(record) => {
-                    let Some(shorter) = state.jump.rejected_implicit(&accuracy, stroke, jump)
-                    else {
-                        return Ok(Some(record));
-                    };
-                    let work = state.work;
-                    *state = before.clone();
-                    state.work = work;
-                    state.jump.limit(shorter);
-                    Some(shorter)
-                }
-                Err(source) => {
-                    *state = CycleState {
-                        jump: state.jump.clone(),
-                        ..before.clone()
-                    };
-                    if source.needs_wider_zones() {
-                        *state = before;
-                        return Err(CycleError::Increment {
-                            cycle: state.cycle,
-                            increment: 0,
-                            halvings: 0,
-                            source,
-                        });
-                    }
-                    let shorter = jump.div_ceil(CUT);
-                    state.jump.limit(shorter);
-                    (jump > 1).then_some(shorter)
-                }
-            };
-            let Some(shorter) = shorter else {
-                *state = before;
-                return Ok(None);
-            };
-            jump = shorter;
+            .next_implicit(&self.scene.accuracy, stroke, remaining);
+        let mut attempts = JumpAttempts {
+            work: state.work,
+            integrator: self,
+            state,
+            laws,
+            stroke,
+            until,
+            is_reported,
+        };
+        match longest_accepted_jump(&mut attempts, jump) {
+            Ok((_, record)) => Ok(Some(record)),
+            Err(source) if source.needs_wider_zones() => Err(CycleError::Increment {
+                cycle: state.cycle,
+                increment: 0,
+                halvings: 0,
+                source,
+            }),
+            Err(_) => {
+                state.jump = control;
+                Ok(None)
+            }
         }
     }
 
@@ -169,13 +146,13 @@ impl Integrator<'_> {
     ///
     /// # Errors
     /// [`ContactError`] if it does not converge.
-    fn attempt(
+    fn jump(
         &mut self,
         state: &mut CycleState,
-        attempt: Attempt<'_>,
+        laws: &DoseLaws,
+        jump: u64,
         detailed: bool,
     ) -> Result<CycleRecord, ContactError> {
-        let Attempt { laws, jump } = attempt;
         let positions = self.cycle_positions(state);
         let starts = self.starts(state, &positions)?;
         let bodies = Bodies {

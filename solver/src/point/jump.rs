@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 use super::surface::WearSums;
 use crate::closed_form::PointAccuracy;
 use crate::number::{cycles_at_least, real_cycles};
+use crate::schedule::jump::CUT;
 
 /// Largest step over indentation of a jump from a tolerance of 2 % on; below, it falls with the root of the tolerance. A sphere on a flat
 /// that alone wears by 2.6 um in 20 000 cycles of 0.3 of the unworn half-length, against jumps of a tenth of the tolerance: with 0.4 and
@@ -33,9 +34,8 @@ const ALLOWED_ERROR: f64 = 2.0;
 const MOST_GROWTH: f64 = 2.0;
 const LEAST_GROWTH: f64 = 0.5;
 
-/// Estimated error over the tolerance from which on a jump is repeated, with a quarter of its cycles.
+/// Estimated error over the tolerance from which on a jump is repeated with a part of its cycles (`CUT`).
 const REJECTED: f64 = 3.0;
-const CUT: u64 = 4;
 
 /// Floor of the estimate, far below any tolerance.
 const SMALLEST_ERROR: f64 = 1e-9;
