@@ -13,6 +13,8 @@ use crate::verification::verify_resume::resumes_to_the_same_bits;
 const FORCE: f64 = 0.5;
 /// k/H, 1/MPa.
 const K: f64 = 2e-8;
+/// Largest relative error of a volume, or of the work of a friction loop: round-off of some thousand increments.
+const ROUND_OFF: f64 = 1e-9;
 
 /// A scene whose slider turns at these displacements, mm.
 fn turning(scene: Scene, x_mm: &[f64]) -> Scene {
@@ -49,7 +51,7 @@ fn each_body_loses_the_volume_of_all_strokes() {
     let path = 300.0 * (0.03 + 0.015 + 0.025 + 0.04);
     for (side, rate) in [(Side::Slider, K), (Side::Receptacle, 0.5 * K)] {
         let (found, exact) = (volume(&summary, side), rate * FORCE * path);
-        assert!((found / exact - 1.0).abs() < 1e-9, "{found} {exact}");
+        assert!((found / exact - 1.0).abs() < ROUND_OFF, "{found} {exact}");
     }
     let snapshot = recorder.snapshots.last().expect("it has a snapshot");
     let found = &snapshot.friction_loop;
@@ -64,7 +66,7 @@ fn each_body_loses_the_volume_of_all_strokes() {
         })
         .sum();
     let exact = scene.friction.unworn() * FORCE * path / 300.0;
-    assert!((work / exact - 1.0).abs() < 1e-9, "{work} {exact}");
+    assert!((work / exact - 1.0).abs() < ROUND_OFF, "{work} {exact}");
 }
 
 #[test]
@@ -76,10 +78,11 @@ fn a_pad_is_twice_as_deep_where_twice_as_many_strokes_pass() {
         volume(&summary, Side::Receptacle),
         K * FORCE * 20.0 * (0.2 + 0.1 + 0.3 + 0.4),
     );
-    assert!((found / exact - 1.0).abs() < 1e-9, "{found} {exact}");
+    assert!((found / exact - 1.0).abs() < ROUND_OFF, "{found} {exact}");
     let profile = recorder.last_profile();
     let ratio = depth_at(profile, 0.05) / depth_at(profile, -0.1);
     println!("depth where four strokes pass over that where two do: {ratio:.3}");
+    // A groove of a tenth of the indentation widens the contact across it, which takes a few per cent of the line load of later passes.
     assert!((1.9..2.01).contains(&ratio), "{ratio}");
 }
 
@@ -95,7 +98,7 @@ fn a_surface_that_slides_through_a_contact_at_rest_wears_it_in_place() {
     let (at_rest, recorder) = done(&continuous);
     let exact = K * FORCE * 500.0 * 8e-4;
     let found = volume(&at_rest, Side::Receptacle);
-    assert!((found / exact - 1.0).abs() < 1e-9, "{found} {exact}");
+    assert!((found / exact - 1.0).abs() < ROUND_OFF, "{found} {exact}");
     let depth = |summary: &Summary| summary.last.receptacle.max_depth_mm;
     let in_place = depth(&done(&short).0);
     assert!((depth(&at_rest) / in_place - 1.0).abs() < 1e-12);
