@@ -9,4 +9,4 @@ pub use line::{
     ContactError, ContactState, Displacement, Increment, Pair, Solver, Status, Surfaces, WarmStart,
     Work, slopes,
 };
-pub(crate) use line::{DoseUnknowns, LinearisedContact, PassPosition, Place};
+pub(crate) use line::{DoseUnknowns, LinearisedContact, NextWorn, PassPosition, Place, Thickness};

@@ -149,6 +149,32 @@ fn a_short_life_is_that_of_short_jumps() {
     agree_with_short_jumps(name, &scene, 2);
 }
 
+/// Bare copper on copper: one cycle wears as much as several indentations.
+fn fast_contact() -> Scene {
+    let mut scene = implicit(sprung_contact());
+    scene.slider.wear = Some(archard(COPPER_WEAR));
+    scene.receptacle.wear = scene.slider.wear;
+    scene.cycles = 300;
+    scene.life = vec![deepest(Side::Slider, 1e-3), deepest(Side::Receptacle, 2e-3)];
+    scene
+}
+
+#[test]
+fn a_contact_that_one_cycle_reshapes_is_that_of_single_cycles() {
+    let scene = fast_contact();
+    agree_with_short_jumps("fast contact", &scene, 1);
+    let [(done, _), (single, _)] = both_ways(&scene, 1);
+    assert!(done.resolution.computed_cycles < single.resolution.computed_cycles);
+    let peak = |done: &Summary| done.last.peak_pressure_mpa;
+    let off = peak(&done) / peak(&single) - 1.0;
+    println!(
+        "   peak pressure {:.1} MPa, {:+.2} %",
+        peak(&done),
+        100.0 * off
+    );
+    assert!(off.abs() < 0.05, "{off}");
+}
+
 #[test]
 fn a_resumed_run_gives_the_same_bits() {
     let (name, mut scene) = cases().swap_remove(2);

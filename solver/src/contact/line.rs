@@ -54,6 +54,7 @@ pub use outcome::Increment;
 pub(crate) use pair::slopes_of_both;
 pub use pair::{Displacement, Pair, Surfaces, WarmStart, slopes};
 pub(crate) use problem::GAP_TOLERANCE;
+pub(crate) use rate_contrast::{NextWorn, Thickness};
 pub use state::ContactState;
 pub use status::Status;
 pub use work::Work;

@@ -12,43 +12,54 @@
 //! and the shares S of both surfaces. Without friction on walls the jump minimises a convex functional, because -d is monotone and G
 //! increases; kinks of layers are kinks of its gradient. Contact and layers are one problem of active sets (`jump`).
 //!
-//! Limits: a reciprocating motion with imposed slip and one coefficient of friction, so that nothing sticks; wear by the dose alone; a pass
-//! of a single cycle that hardly reshapes the contact; no groove whose cycles are extrapolated (`extrapolation`). A slider that climbs a slope s slides by s^2 farther than its displacement, which is left out. Everything else,
-//! and a single cycle that does not converge, is integrated by computed cycles.
+//! Limits: a reciprocating motion with imposed slip and one coefficient of friction, so that nothing sticks; wear by the dose alone; no
+//! groove whose cycles are extrapolated (`extrapolation`). Everything else, single cycles, and a jump that does not converge are
+//! integrated by computed cycles. What a pass reshapes is no part of the depths, whose both passes undo it, but of the pressures: those of a computed cycle are
+//! reported where it is much.
 
 mod attempts;
 mod buffers;
 mod contacts;
 mod dose_laws;
 mod end;
+mod formulas;
 mod jump;
 mod positions;
 #[cfg(test)]
 mod tests;
 
+use super::attempts::CycleAttempts;
 use super::{CycleError, CycleRecord, CycleState, IncrementNumber, Integrator, WarmStarts};
-use crate::contact::ContactError;
-use crate::law::surface;
+use crate::contact::{ContactError, Thickness};
+use crate::law::surface::{self, SurfaceWear};
 use crate::model::Tangential;
 use crate::number::real_cycles;
 use crate::scene::Motion;
-use crate::schedule::attempts::longest_accepted_jump;
+use crate::schedule::attempts::{Attempts, longest_accepted_jump};
 use crate::schedule::increments;
-use crate::schedule::jump::Formula;
 use crate::schedule::step::Step;
 use crate::schedule::stroke::Stroke;
 use crate::sides::{Side, Sides};
 use attempts::JumpAttempts;
 pub(super) use buffers::ImplicitJumps;
-use contacts::Bodies;
+use contacts::{Bodies, Contacts};
 use dose_laws::DoseLaws;
 use end::End;
+use formulas::{Formulas, JumpFrom};
 use jump::ImplicitJump;
 use positions::{CyclePosition, positions};
 
-/// Largest pressure skew of a single cycle by the wear that the contact as a whole has, k s E*/b: the pressure is off by about a third of
-/// it.
+/// Pressure skew of a single cycle by the wear that the contact as a whole has, k s E*/b, from which on the contacts in a computed cycle
+/// are reported: the pressure is off by about a third of it.
 const LARGEST_SKEW: f64 = 0.1;
+
+/// End of a jump as it is reported.
+struct ReportedEnd {
+    record: CycleRecord,
+    /// Cycles up to which nothing else is reported, and `true` if what happens until then may be in detail.
+    until: u64,
+    is_reported: bool,
+}
 
 impl Integrator<'_> {
     /// Makes a jump that is implicit in the worn shapes, as long as the jump control and `until` allow; `None` where computed cycles
@@ -63,7 +74,7 @@ impl Integrator<'_> {
         until: u64,
         is_reported: bool,
     ) -> Result<Option<CycleRecord>, CycleError> {
-        let Some(laws) = self.dose_laws(state, stroke) else {
+        let Some(laws) = self.dose_laws(stroke) else {
             return Ok(None);
         };
         let control = state.jump.clone();
@@ -71,6 +82,10 @@ impl Integrator<'_> {
         let jump = state
             .jump
             .next_implicit(&self.scene.accuracy, stroke, remaining);
+        if jump <= 1 {
+            state.jump = control;
+            return Ok(None);
+        }
         let mut attempts = JumpAttempts {
             work: state.work,
             integrator: self,
@@ -81,7 +96,14 @@ impl Integrator<'_> {
             is_reported,
         };
         match longest_accepted_jump(&mut attempts, jump) {
-            Ok((_, record)) => Ok(Some(record)),
+            Ok((_, record)) => {
+                let end = ReportedEnd {
+                    record,
+                    until,
+                    is_reported,
+                };
+                Ok(Some(self.in_a_cycle(state, stroke, end)))
+            }
             Err(source) if source.needs_wider_zones() => Err(CycleError::Increment {
                 cycle: state.cycle,
                 increment: 0,
@@ -96,7 +118,7 @@ impl Integrator<'_> {
     }
 
     /// The laws of a contact whose jumps are implicit.
-    fn dose_laws(&self, state: &CycleState, stroke: Stroke) -> Option<DoseLaws> {
+    fn dose_laws(&self, stroke: Stroke) -> Option<DoseLaws> {
         let (scene, interface) = (self.scene, &self.pair.interface);
         let is_simple = scene.accuracy.tuning.implicit_jumps
             && matches!(scene.motion, Motion::Reciprocating { .. })
@@ -106,8 +128,7 @@ impl Integrator<'_> {
             && scene.accuracy.cycle_jump.is_none()
             && self.heating.is_none();
         let laws = DoseLaws::of(&self.wear)?;
-        let is_even = !stroke.is_groove && self.skew(state, stroke) <= LARGEST_SKEW;
-        (is_simple && is_even && self.is_flat(state)).then_some(laws)
+        (is_simple && !stroke.is_groove).then_some(laws)
     }
 
     /// Pressure skew of a single cycle by the wear that the contact as a whole has had in the last jump.
@@ -131,15 +152,40 @@ impl Integrator<'_> {
         sides.sum()
     }
 
-    /// Returns `true` if the path of a slider that climbs the worn receptacle is its displacement.
-    fn is_flat(&self, state: &CycleState) -> bool {
-        let body = &self.pair.operators.receptacle;
-        let (x, depth) = (&body.x, &state.depth.receptacle);
-        let limit = self.scene.accuracy.tolerance.sqrt();
-        let steps = x.windows(2).zip(depth.windows(2));
-        steps.fold(0.0, |steepest: f64, (x, depth)| {
-            steepest.max(((depth[1] - depth[0]) / (x[1] - x[0])).abs())
-        }) <= limit
+    /// Replaces the contacts at the end of a jump by those of one computed cycle, if a cycle reshapes its contact: the wear of the cycle
+    /// does not count. They stay where that has no solution.
+    fn in_a_cycle(
+        &mut self,
+        state: &mut CycleState,
+        stroke: Stroke,
+        end: ReportedEnd,
+    ) -> CycleRecord {
+        let ReportedEnd {
+            record,
+            until,
+            is_reported,
+        } = end;
+        if self.skew(state, stroke) <= LARGEST_SKEW {
+            return record;
+        }
+        let mut passing = state.clone();
+        passing.cycle -= 1;
+        let mut attempt = CycleAttempts {
+            work: passing.work,
+            integrator: self,
+            state: &mut passing,
+            stroke,
+            until,
+            is_reported,
+        };
+        let Ok(record_of_cycle) = attempt.attempt(1) else {
+            return record;
+        };
+        state.contact = passing.contact;
+        state.neutral = passing.neutral;
+        state.checks = passing.checks;
+        state.work = passing.work;
+        record_of_cycle
     }
 
     /// Makes a jump.
@@ -155,34 +201,40 @@ impl Integrator<'_> {
     ) -> Result<CycleRecord, ContactError> {
         let positions = self.cycle_positions(state);
         let starts = self.starts(state, &positions)?;
-        let bodies = Bodies {
-            pair: &self.pair,
-            slope: &self.slope,
-        };
-        let ImplicitJumps { contacts, system } = &mut self.implicit;
-        contacts.place(bodies, positions, &state.depth, &starts)?;
-        contacts.settle(bodies, &state.depth)?;
-        let first = contacts.doses(bodies);
-        let before = laws.doses(&state.depth);
         let cycles = real_cycles(jump);
+        let bodies = Bodies::of(
+            &self.pair,
+            &self.slope,
+            &state.depth,
+            state.contact.indentation,
+        );
+        let contacts = &mut self.implicit.contacts;
+        let mut first = doses_of_one(contacts, bodies, &positions, &state.depth, &starts)?;
+        let worn_next = self.worn_next(state, laws, cycles, &first);
+        let mut bodies = Bodies::of(
+            &self.pair,
+            &self.slope,
+            &state.depth,
+            state.contact.indentation,
+        );
+        let ImplicitJumps { contacts, system } = &mut self.implicit;
+        if let Some(worn_next) = &worn_next {
+            bodies.next.thickness = Thickness::OfNodes(worn_next);
+            first = doses_of_one(contacts, bodies, &positions, &state.depth, &starts)?;
+        }
+        let before = laws.doses(&state.depth);
         let nodes = first.as_ref().map(Vec::len);
-        let last = state
-            .jump
-            .last_implicit(jump)
-            .filter(|last| last.is_of(nodes));
-        let (formula, weight) = last.map_or((Formula::ImplicitEuler, 1.0), |last| {
-            let ratio = cycles / last.cycles;
-            (Formula::TwoSteps, (1.0 + ratio) / (1.0 + 2.0 * ratio))
+        let last = state.jump.last_implicit(jump);
+        let formulas = Formulas::new(JumpFrom {
+            laws,
+            dose: &before,
+            of_cycle: &first,
+            widths: self.pair.operators.as_ref().map(|body| &body.widths[..]),
+            depth: &state.depth,
+            cycles,
+            last: last.filter(|last| last.is_of(nodes)),
         });
-        let known = Sides::from_fn(|side| match last {
-            None => before.of(side).clone(),
-            Some(last) => {
-                let part = cycles * (1.0 - weight) / laws.rate(side).max(f64::MIN_POSITIVE);
-                let nodes = before.of(side).iter().zip(*last.rates.of(side));
-                nodes.map(|(dose, rate)| dose + part * rate).collect()
-            }
-        });
-        let predictor = Sides::from_fn(|side| {
+        let predicted = Sides::from_fn(|side| {
             let nodes = before.of(side).iter().zip(first.of(side));
             nodes
                 .map(|(dose, of_cycle)| dose + cycles * of_cycle)
@@ -191,20 +243,37 @@ impl Integrator<'_> {
         let implicit = ImplicitJump {
             bodies,
             laws,
-            known,
-            cycles: cycles * weight,
+            formulas: &formulas,
             before: &state.depth,
         };
-        let end = implicit.solve(contacts, system, predictor)?;
+        let reached = implicit.solve(contacts, system, predicted)?;
+        let formula = formulas.formula;
         let end = End {
             laws,
             jump,
             formula,
             before,
             first,
-            reached: end,
+            reached,
         };
         self.finish(state, end, detailed)
+    }
+
+    /// Thicknesses that a jump of so many cycles wears at the master's nodes at the doses and rates of its beginning, an indentation at
+    /// least, mm; where a layer of the master wears faster than its surface.
+    fn worn_next(
+        &self,
+        state: &CycleState,
+        laws: &DoseLaws,
+        cycles: f64,
+        first: &Sides<Vec<f64>>,
+    ) -> Option<Vec<f64>> {
+        let master = self.pair.interface.slave.other();
+        let quickens = self.wear.of(master).is_some_and(SurfaceWear::quickens);
+        let least = state.contact.indentation;
+        let nodes = first.of(master).iter().zip(state.depth.of(master));
+        let worn = nodes.map(|(dose, depth)| cycles * dose * laws.slope(master, *depth));
+        quickens.then(|| worn.map(|worn| worn.max(least)).collect())
     }
 
     /// Positions of the next cycle.
@@ -251,4 +320,20 @@ impl Integrator<'_> {
         }
         Ok(starts)
     }
+}
+
+/// Doses of one cycle on fixed shapes, MPa mm, of contacts that are placed at positions from starts.
+///
+/// # Errors
+/// [`ContactError`] if one has no solution.
+fn doses_of_one(
+    contacts: &mut Contacts,
+    bodies: Bodies<'_>,
+    positions: &[CyclePosition],
+    depth: &Sides<Vec<f64>>,
+    starts: &WarmStarts,
+) -> Result<Sides<Vec<f64>>, ContactError> {
+    contacts.place(bodies, positions.to_vec(), depth, starts)?;
+    contacts.settle(bodies, depth)?;
+    Ok(contacts.doses(bodies))
 }

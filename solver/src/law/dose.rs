@@ -4,6 +4,8 @@
 //! increments: one of n cycles wears as n of one cycle. Doses add where depths do not: what is extrapolated or compared is the
 //! equivalent of a depth, that which the initial rate alone would have worn by the same dose.
 
+use std::ops::Range;
+
 use super::plating::Layers;
 use super::wear::barwell::Barwell;
 
@@ -60,6 +62,14 @@ impl DoseCurve {
     /// Depth whose equivalent is this, mm.
     pub fn depth(&self, equivalent: f64) -> f64 {
         self.recession(0.0, equivalent / self.initial_rate()).0
+    }
+
+    /// Depths between which the layer of a depth lies, mm.
+    pub(crate) fn layer(&self, depth: f64) -> Range<f64> {
+        match self {
+            Self::Layers(layers) => layers.layer(depth),
+            Self::Barwell(_) => 0.0..f64::INFINITY,
+        }
     }
 
     /// Largest depth that wear reaches, mm.

@@ -8,6 +8,8 @@
 //! Range: rates that are the same in every local state; a layer's is positive, the base's may be zero. Layers wear as if they
 //! were ideally flat and bonded; mixed debris and cracks at their edges are not part of it.
 
+use std::ops::Range;
+
 /// Most layers of a surface. Arbitrary: usual platings have one to four.
 pub const MOST_LAYERS: usize = 8;
 
@@ -76,6 +78,14 @@ impl Layers {
     fn at(&self, depth: f64) -> usize {
         let bottoms = self.bottom[..self.count].iter();
         bottoms.take_while(|bottom| depth >= **bottom).count()
+    }
+
+    /// Depths between which the layer of a depth lies, mm; the base has no end.
+    pub(crate) fn layer(&self, depth: f64) -> Range<f64> {
+        let (bottoms, at) = (&self.bottom[..self.count], self.at(depth));
+        let start = at.checked_sub(1).map_or(0.0, |above| bottoms[above]);
+        let end = bottoms.get(at);
+        start..end.copied().unwrap_or(f64::INFINITY)
     }
 
     /// Specific wear rate at a depth in mm, 1/MPa.

@@ -4,6 +4,7 @@
 //! holds at every depth. Doses add where depths do not: the wear of cycles is extrapolated in equivalent depths.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use super::dose::DoseCurve;
 use super::pace::Pace;
@@ -239,6 +240,14 @@ impl SurfaceWear {
             Self::Law(_) => depth,
             Self::ByDose(curve) => curve.equivalent(depth),
             Self::ByPower { law, .. } => law.equivalent(depth),
+        }
+    }
+
+    /// Depths between which the layer of a depth lies, mm.
+    pub(crate) fn layer(self, depth: f64) -> Range<f64> {
+        match self {
+            Self::Law(_) | Self::ByPower { .. } => 0.0..f64::INFINITY,
+            Self::ByDose(curve) => curve.layer(depth),
         }
     }
 

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::local_slopes::LocalSlopes;
 use super::mortar::Coupling;
 use super::pair::{Pair, Surfaces, Zones};
-use super::rate_contrast::share_by_resistance;
+use super::rate_contrast::{NextWorn, Thickness, share_by_resistance};
 use super::state::ContactState;
 use crate::model::Interface;
 use crate::sides::Side;
@@ -78,14 +78,25 @@ impl Geometry {
         setting: Setting,
         nodes: Range<usize>,
     ) {
-        let Setting {
-            pairing_x,
-            indentation,
-            ..
-        } = setting;
+        let next = NextWorn {
+            depth: surfaces.depth.of(pair.interface.slave.other()),
+            thickness: Thickness::Even(setting.indentation),
+        };
+        self.place_where_worn(pair, surfaces, setting, nodes, next);
+    }
+
+    /// Couples a range of the slave's nodes, whose paths the master's nodes share by what they wear next.
+    pub(super) fn place_where_worn(
+        &mut self,
+        pair: &Pair<'_>,
+        surfaces: &Surfaces<'_>,
+        setting: Setting,
+        nodes: Range<usize>,
+        next: NextWorn<'_>,
+    ) {
         self.coupling
-            .integrate(pair, pairing_x, nodes.start, nodes.end);
-        share_by_resistance(&mut self.coupling, pair, surfaces, indentation);
+            .integrate(pair, setting.pairing_x, nodes.start, nodes.end);
+        share_by_resistance(&mut self.coupling, pair, next);
         self.slopes.assemble(pair, &self.coupling, surfaces);
     }
 

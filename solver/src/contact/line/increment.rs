@@ -239,7 +239,7 @@ impl Solver {
         friction::interpolate(pair, surfaces, pairing_x, first..end, coefficients);
         let width = &pair.slave().widths[first..end];
         let slope = &geometry.slopes.interface;
-        let mean = mean_slope(last, &geometry.coupling, width, slope);
+        let mean = mean_slope(&last.pressure[first..end], width, slope);
         let (across, along) = (step, to.along);
         self.along
             .impose(Imposed { across, along }, Slopes { nodes: slope, mean });

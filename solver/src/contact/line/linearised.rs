@@ -18,7 +18,8 @@ use super::friction::{self, Coefficient};
 use super::geometry::{Geometry, Setting};
 use super::mortar;
 use super::pair::{Pair, Surfaces, WarmStart};
-use super::problem::{Iterate, Problem};
+use super::problem::{Iterate, Problem, mean_slope};
+use super::rate_contrast::NextWorn;
 use super::response::Response;
 use super::status::Status;
 use super::unknown::Unknown;
@@ -55,6 +56,8 @@ pub(crate) struct LinearisedContact {
     rhs: Vec<f64>,
     solution: Vec<f64>,
     window: (usize, usize),
+    /// Rise of the slider over its displacement: the mean slope under the pressures of its start.
+    climb: f64,
     /// True if the inverse is that of the closed nodes.
     is_factored: bool,
     pub(crate) work: Work,
@@ -67,6 +70,8 @@ pub(crate) struct Place<'a> {
     /// Surfaces with the depths that the window is chosen for; their slopes are those of all depths.
     pub(crate) surfaces: Surfaces<'a>,
     pub(crate) position: PassPosition,
+    /// What the master's nodes wear next, by which they share paths.
+    pub(crate) next: NextWorn<'a>,
 }
 
 impl Place<'_> {
@@ -78,7 +83,6 @@ impl Place<'_> {
             pairing_x: slider_x,
             load: interface.load - spring * self.position.reference_height,
             spring,
-            // The master's nodes share paths by their place alone.
             indentation: 0.0,
         }
     }
@@ -114,16 +118,28 @@ impl LinearisedContact {
             it.pressure[node - offset] = start.pressure[node - start.first];
         }
         it.height = 0.0;
+        let widths = &place.pair.slave().widths[self.window.0..self.window.1];
+        self.climb = mean_slope(&it.pressure, widths, &self.geometry.slopes.interface);
         Ok(())
+    }
+
+    /// Slip of a node of the window over the displacement: a slider that rises by m per displacement slips by 1 + m s on the slope s.
+    fn slip(&self, node: usize) -> f64 {
+        1.0 + self.climb * self.geometry.slopes.interface[node]
     }
 
     /// Couples the nodes of a window; all of them are open.
     fn assemble(&mut self, place: Place<'_>, window: (usize, usize)) -> Result<(), ContactError> {
-        let Place { pair, surfaces, .. } = place;
+        let Place {
+            pair,
+            surfaces,
+            next,
+            ..
+        } = place;
         self.window = window;
         let nodes = window.0..window.1;
         self.geometry
-            .place(pair, &surfaces, place.setting(), nodes.clone());
+            .place_where_worn(pair, &surfaces, place.setting(), nodes.clone(), next);
         self.response.reset(nodes.len(), false);
         let it = &mut self.iterate;
         it.status.clear();
@@ -230,6 +246,7 @@ impl LinearisedContact {
             pair,
             surfaces,
             position,
+            ..
         } = place;
         let nodes = self.window.0..self.window.1;
         let geometry = &self.geometry;

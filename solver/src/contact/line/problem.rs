@@ -3,7 +3,6 @@
 use super::friction::Coefficient;
 use super::mortar::Coupling;
 use super::pair::{Pair, Zones};
-use super::state::ContactState;
 use super::status::Status;
 use crate::law::wear::LocalState;
 
@@ -64,15 +63,9 @@ impl Problem<'_> {
     }
 }
 
-/// Mean slope of the coupled nodes, of these widths and slopes, under the last load.
-pub(super) fn mean_slope(
-    last: &ContactState,
-    coupling: &Coupling,
-    widths: &[f64],
-    slopes: &[f64],
-) -> f64 {
+/// Mean slope under pressures of nodes of these widths and slopes.
+pub(super) fn mean_slope(pressures: &[f64], widths: &[f64], slopes: &[f64]) -> f64 {
     let (mut load, mut moment) = (0.0, 0.0);
-    let pressures = &last.pressure[coupling.first..coupling.end];
     for ((p, width), slope) in pressures.iter().zip(widths).zip(slopes) {
         load += width * p;
         moment += width * p * slope;

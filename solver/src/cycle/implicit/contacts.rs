@@ -2,7 +2,8 @@
 
 use super::positions::CyclePosition;
 use crate::contact::{
-    ContactError, DoseUnknowns, LinearisedContact, Pair, Place, Surfaces, WarmStart, Work,
+    ContactError, DoseUnknowns, LinearisedContact, NextWorn, Pair, Place, Surfaces, Thickness,
+    WarmStart, Work,
 };
 use crate::cycle::{IncrementNumber, WarmStarts};
 use crate::linear::SquareMatrix;
@@ -11,14 +12,29 @@ use crate::sides::Sides;
 /// Most updates of the closed nodes on fixed shapes.
 const MOST_UPDATES: usize = 40;
 
-/// The bodies and the slopes of their surfaces.
+/// The bodies, the slopes of their surfaces, and what the master's nodes wear next.
 #[derive(Clone, Copy)]
 pub(super) struct Bodies<'a> {
     pub(super) pair: &'a Pair<'a>,
     pub(super) slope: &'a Sides<Vec<f64>>,
+    pub(super) next: NextWorn<'a>,
 }
 
 impl<'a> Bodies<'a> {
+    /// Those of depths in mm, whose master wears an indentation in mm next.
+    pub(super) fn of(
+        pair: &'a Pair<'a>,
+        slope: &'a Sides<Vec<f64>>,
+        depth: &'a Sides<Vec<f64>>,
+        indentation: f64,
+    ) -> Self {
+        let next = NextWorn {
+            depth: depth.of(pair.interface.slave.other()),
+            thickness: Thickness::Even(indentation),
+        };
+        Self { pair, slope, next }
+    }
+
     /// Place of a position on surfaces of these depths in mm.
     pub(super) fn place(self, depth: &'a Sides<Vec<f64>>, position: &CyclePosition) -> Place<'a> {
         Place {
@@ -29,6 +45,7 @@ impl<'a> Bodies<'a> {
                 friction: Sides::default(),
             },
             position: position.at,
+            next: self.next,
         }
     }
 }

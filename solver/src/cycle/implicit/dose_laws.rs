@@ -1,5 +1,7 @@
 //! Depths over doses of both surfaces.
 
+use std::ops::Range;
+
 use crate::law::surface::SurfaceWear;
 use crate::sides::{Side, Sides};
 
@@ -41,6 +43,22 @@ impl DoseLaws {
         self.0
             .of(side)
             .map_or(0.0, |wear| wear.depth(dose * rate(wear)))
+    }
+
+    /// Doses between which the layer of a depth in mm wears, MPa mm.
+    pub(super) fn layer(&self, side: Side, depth: f64) -> Range<f64> {
+        let Some(wear) = self.0.of(side) else {
+            return 0.0..f64::INFINITY;
+        };
+        let layer = wear.layer(depth);
+        let dose = |depth: f64| {
+            if depth.is_finite() {
+                wear.equivalent(depth) / rate(*wear)
+            } else {
+                f64::INFINITY
+            }
+        };
+        dose(layer.start)..dose(layer.end)
     }
 
     /// Specific wear rate at a depth in mm, 1/MPa.

@@ -32,19 +32,21 @@ impl End<'_> {
         grown / real_cycles(self.jump)
     }
 
-    /// Wear of the jump and its estimated error.
-    fn wear(&self, widths: Sides<&[f64]>) -> ImplicitWear {
+    /// Wear of the jump between these depths in mm, and its estimated error. Where a fast layer opens, doses of the slow one above count by its rate.
+    fn wear(&self, widths: Sides<&[f64]>, depth: &Sides<Vec<f64>>) -> ImplicitWear {
         let (mut area, mut error) = (0.0, 0.0);
         let mut rates = Sides::default();
+        let cycles = real_cycles(self.jump);
         for side in Side::BOTH {
             let rate = self.laws.rate(side);
             let rates: &mut Vec<f64> = rates.of_mut(side);
             for (node, width) in widths.of(side).iter().enumerate() {
                 let mean = self.mean(side, node);
-                let weight = width * self.laws.slope(side, self.reached.depth.of(side)[node]);
+                let (from, to) = (depth.of(side)[node], self.reached.depth.of(side)[node]);
+                let slope = |depth| self.laws.slope(side, depth);
                 let ends = self.first.of(side)[node] + self.reached.of_cycle.of(side)[node];
-                area += weight * mean;
-                error += weight * (mean - 0.5 * ends).abs();
+                area += width * (to - from) / cycles;
+                error += width * slope(from).min(slope(to)) * (mean - 0.5 * ends).abs();
                 rates.push(rate * mean);
             }
         }
@@ -110,7 +112,7 @@ impl Integrator<'_> {
         state.energy_per_cycle = energy / cycles;
         state.friction_per_cycle = self.pair.interface.friction;
         let load = state.contact.load(&self.pair.interface);
-        let wear = end.wear(widths);
+        let wear = end.wear(widths, &state.depth);
         let stroke: Vec<f64> = wear
             .rates
             .receptacle
@@ -136,10 +138,12 @@ impl Integrator<'_> {
         detailed: bool,
     ) -> Result<CycleRecord, ContactError> {
         let mut record = CycleRecord::default();
-        let bodies = Bodies {
-            pair: &self.pair,
-            slope: &self.slope,
-        };
+        let bodies = Bodies::of(
+            &self.pair,
+            &self.slope,
+            &state.depth,
+            state.contact.indentation,
+        );
         let widths = &self.pair.slave().widths;
         let contacts = &mut self.implicit.contacts;
         let (mut starts, mut half_widths) = (WarmStarts::default(), 0.0);
@@ -202,10 +206,12 @@ impl Integrator<'_> {
             ..positions[number].at
         };
         let position = CyclePosition { at, path: 0.0 };
-        let bodies = Bodies {
-            pair: &self.pair,
-            slope: &self.slope,
-        };
+        let bodies = Bodies::of(
+            &self.pair,
+            &self.slope,
+            &state.depth,
+            state.contact.indentation,
+        );
         let place = bodies.place(&state.depth, &position);
         let mut contact = LinearisedContact::default();
         let increment = IncrementNumber {

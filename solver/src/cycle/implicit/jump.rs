@@ -7,6 +7,7 @@
 
 use super::contacts::{Bodies, Contacts, not_converged};
 use super::dose_laws::DoseLaws;
+use super::formulas::Formulas;
 use crate::contact::{ContactError, DoseUnknowns};
 use crate::linear::CondensedSystem;
 use crate::sides::{Side, Sides};
@@ -21,10 +22,7 @@ const DEPTH_TOLERANCE: f64 = 1e-6;
 pub(super) struct ImplicitJump<'a> {
     pub(super) bodies: Bodies<'a>,
     pub(super) laws: &'a DoseLaws,
-    /// Known part of the doses at its end, MPa mm.
-    pub(super) known: Sides<Vec<f64>>,
-    /// Cycles that the doses of one cycle at its end count for.
-    pub(super) cycles: f64,
+    pub(super) formulas: &'a Formulas,
     /// Depths at its beginning, mm, which a side that does not wear keeps.
     pub(super) before: &'a Sides<Vec<f64>>,
 }
@@ -44,6 +42,8 @@ pub(super) struct JumpSystem {
     system: CondensedSystem,
     rhs: Vec<f64>,
     slopes: Vec<f64>,
+    /// Cycles on the last shapes that each unknown counts.
+    cycles: Vec<f64>,
 }
 
 impl ImplicitJump<'_> {
@@ -99,7 +99,7 @@ impl ImplicitJump<'_> {
                 continue;
             }
             let nodes = dose.of_mut(side).iter_mut().zip(depth.of_mut(side));
-            let known = self.known.of(side);
+            let known = self.formulas.known.of(side);
             for (node, ((dose, depth), known)) in nodes.zip(known).enumerate() {
                 if !unknowns.contains(side, node) {
                     *dose = *known;
@@ -122,18 +122,22 @@ impl ImplicitJump<'_> {
         let order = nodes.len();
         let matrix = system.system.system(order);
         matrix.reset(order);
-        contacts.add_sensitivity(self.bodies, &system.unknowns, -self.cycles, matrix);
+        let Formulas { known, cycles, .. } = self.formulas;
+        contacts.add_sensitivity(self.bodies, &system.unknowns, -1.0, matrix);
+        system.cycles.clear();
+        let counts = nodes.iter().map(|(side, _)| *cycles.of(*side));
+        system.cycles.extend(counts);
         system.rhs.clear();
         system.slopes.clear();
         for (number, (side, node)) in nodes.iter().enumerate() {
             let slope = self.laws.slope(*side, depth.of(*side)[*node]);
-            for entry in matrix.column_mut(number) {
-                *entry *= slope;
+            for (entry, cycles) in matrix.column_mut(number).iter_mut().zip(&system.cycles) {
+                *entry *= slope * cycles;
             }
             *matrix.at(number, number) += 1.0;
             let at = |values: &Sides<Vec<f64>>| values.of(*side)[*node];
             system.slopes.push(slope);
-            let residual = at(dose) - at(&self.known) - self.cycles * at(of_cycle);
+            let residual = at(dose) - at(known) - cycles.of(*side) * at(of_cycle);
             system.rhs.push(-residual);
         }
         system.system.condense(order);

@@ -98,10 +98,12 @@ fn doses_of_increments(integrator: &mut Integrator<'_>, state: &CycleState) -> S
     let starts = integrator
         .starts(state, &positions)
         .expect("they are solved");
-    let bodies = Bodies {
-        pair: &integrator.pair,
-        slope: &integrator.slope,
-    };
+    let bodies = Bodies::of(
+        &integrator.pair,
+        &integrator.slope,
+        &state.depth,
+        state.contact.indentation,
+    );
     let contacts = &mut integrator.implicit.contacts;
     let placed = contacts.place(bodies, positions, &state.depth, &starts);
     placed.expect("they are placed");
@@ -156,10 +158,12 @@ fn settled(integrator: &mut Integrator<'_>, state: &CycleState) -> Contacts {
     let starts = integrator
         .starts(state, &positions)
         .expect("they are solved");
-    let bodies = Bodies {
-        pair: &integrator.pair,
-        slope: &integrator.slope,
-    };
+    let bodies = Bodies::of(
+        &integrator.pair,
+        &integrator.slope,
+        &state.depth,
+        state.contact.indentation,
+    );
     let mut contacts = Contacts::default();
     let placed = contacts.place(bodies, positions, &state.depth, &starts);
     placed.expect("they are placed");
@@ -174,10 +178,12 @@ fn the_change_of_doses_with_depths_is_that_of_differences() {
     let bench = Bench::new(scene());
     let (mut integrator, state) = bench.begin();
     let mut contacts = settled(&mut integrator, &state);
-    let bodies = Bodies {
-        pair: &integrator.pair,
-        slope: &integrator.slope,
-    };
+    let bodies = Bodies::of(
+        &integrator.pair,
+        &integrator.slope,
+        &state.depth,
+        state.contact.indentation,
+    );
     let mut unknowns = DoseUnknowns::default();
     let both = Sides {
         slider: true,
@@ -208,17 +214,33 @@ fn a_jump_ends_where_its_doses_are_those_of_its_last_shapes() {
     let (mut integrator, state) = bench.begin();
     let laws = DoseLaws::of(&integrator.wear).expect("both wear by dose");
     let mut contacts = settled(&mut integrator, &state);
-    let bodies = Bodies {
-        pair: &integrator.pair,
-        slope: &integrator.slope,
-    };
+    let bodies = Bodies::of(
+        &integrator.pair,
+        &integrator.slope,
+        &state.depth,
+        state.contact.indentation,
+    );
     // Through the gold in the middle of the tip.
     let cycles = 4_000.0;
+    let unworn = laws.doses(&state.depth);
+    let of_cycle = contacts.doses(bodies);
+    let formulas = Formulas::new(JumpFrom {
+        laws: &laws,
+        dose: &unworn,
+        of_cycle: &of_cycle,
+        widths: integrator
+            .pair
+            .operators
+            .as_ref()
+            .map(|body| &body.widths[..]),
+        depth: &state.depth,
+        cycles,
+        last: None,
+    });
     let jump = ImplicitJump {
         bodies,
         laws: &laws,
-        known: laws.doses(&state.depth),
-        cycles,
+        formulas: &formulas,
         before: &state.depth,
     };
     let predictor = contacts

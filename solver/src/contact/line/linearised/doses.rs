@@ -1,7 +1,7 @@
 //! Doses that the pressures of a contact give both surfaces, and their change with the depths.
 //!
-//! A node of the slave takes the dose w p, with the path w of the slider at the position; a node j of the master takes its shares
-//! w sum_i (integral phi_i phi_j) p_i/d_j, so that each surface takes the work w sum_i d_i p_i. A change of the depths opens the gap of a
+//! A node of the slave takes the dose w p, with its path w at the position; a node j of the master takes its shares
+//! sum_i w_i (integral phi_i phi_j) p_i/d_j, so that each surface takes the work sum_i w_i d_i p_i. A change of the depths opens the gap of a
 //! node of the slave by its own depth and the mean of the master's, and changes the pressures by -T times that.
 
 use super::super::pair::Pair;
@@ -43,12 +43,13 @@ impl LinearisedContact {
         let slave = pair.interface.slave;
         let (coupling, widths) = (&self.geometry.coupling, &pair.master().widths);
         for closed in &self.closed {
-            let (node, pressure) = (coupling.first + closed, self.iterate.pressure[*closed]);
-            doses.of_mut(slave)[node] += path * pressure;
+            let node = coupling.first + closed;
+            let dose = path * self.slip(*closed) * self.iterate.pressure[*closed];
+            doses.of_mut(slave)[node] += dose;
             let (from, shares) = coupling.standard_row(node);
             let master = &mut doses.of_mut(slave.other())[from..];
-            for ((dose, share), width) in master.iter_mut().zip(shares).zip(&widths[from..]) {
-                *dose += path * pressure * share / width;
+            for ((taken, share), width) in master.iter_mut().zip(shares).zip(&widths[from..]) {
+                *taken += dose * share / width;
             }
         }
     }
@@ -129,7 +130,7 @@ impl LinearisedContact {
         let slave = pair.interface.slave;
         let (coupling, widths) = (&self.geometry.coupling, &pair.master().widths);
         for (closed, pressure) in self.closed.iter().zip(pressures) {
-            let dose = factor * pressure;
+            let dose = factor * self.slip(*closed) * pressure;
             let node = coupling.first + closed;
             if let Some(row) = unknowns.of(slave, node) {
                 column[row] += dose;
