@@ -8,7 +8,7 @@ use crate::cycle::{MissionState, MotionHistory};
 use crate::effects::Crossing;
 use crate::electrical::ElectricalState;
 use crate::extruded::ExtrudedState;
-use crate::point::PointState;
+use crate::point::{PointHistory, PointState};
 use crate::record::{Compared, Initial, Life};
 use crate::scene::{Motion, Scene};
 use crate::station::LineState;
@@ -36,7 +36,7 @@ pub struct Run<S, H> {
 pub type SectionRun = Run<SectionState, MotionHistory>;
 
 /// A run of a point contact.
-pub type PointRun = Run<PointState, ()>;
+pub type PointRun = Run<PointState, PointHistory>;
 
 /// A run of a contact along a line.
 pub type LineRun = Run<LineState, ()>;

@@ -7,6 +7,8 @@ pub(super) mod plane;
 mod point;
 mod sections;
 
+use std::borrow::Cow;
+
 use crate::SolveError;
 use crate::change::Change;
 use crate::checkpoint::{Resumable, Run};
@@ -153,8 +155,8 @@ pub(super) trait Contact: Sized {
     fn totals(&self, _: &Self::State) -> BlockWear {
         BlockWear::default()
     }
-    /// Worn depths of the nodes that the totals are given at, mm.
-    fn nodal_depths(_: &Self::State) -> Sides<&[f64]> {
+    /// Worn depths of the nodes that the totals are given at, mm, or values that grow with these.
+    fn nodal_depths<'a>(&self, _: &'a Self::State) -> Sides<Cow<'a, [f64]>> {
         Sides::default()
     }
     /// Cycles in which a body would be worn through at these rates of the nodes, mm a cycle.
