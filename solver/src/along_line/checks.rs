@@ -36,7 +36,10 @@ fn check_motion(section: &Scene) -> Result<f64, SectionsError> {
         return Err(SectionsError::FrictionLaw);
     }
     let amplitude = amplitude_mm.abs();
-    positive(amplitude, SectionsError::AmplitudeRange)?;
+    // A block of a mission may be a rest, which wears nothing.
+    if section.cycles_at_a_time.is_none() || amplitude != 0.0 {
+        positive(amplitude, SectionsError::AmplitudeRange)?;
+    }
     let half_block_mm = 0.5 * section.receptacle.shape.length_mm;
     if amplitude >= half_block_mm {
         return Err(SectionsError::LeavesReceptacle {
@@ -54,8 +57,9 @@ fn check_motion(section: &Scene) -> Result<f64, SectionsError> {
 pub(crate) fn check_slip(section: &Scene) -> Result<(), SectionsError> {
     let half_width = unworn_contact::hertz_half_width(section);
     let blocks = section.blocks().into_iter();
-    let mut sticking = blocks.filter(|block| unworn_contact::sticks(block, half_width));
-    match sticking.next() {
+    let mut moving = blocks.filter(|block| block.motion.distance_per_cycle_mm() != 0.0);
+    let sticking = moving.find(|block| unworn_contact::sticks(block, half_width));
+    match sticking {
         None => Ok(()),
         Some(block) => Err(SectionsError::Sticks {
             amplitude_mm: block.motion.amplitude_mm().abs(),

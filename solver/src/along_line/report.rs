@@ -26,7 +26,7 @@ impl<C: SectionedContact> SectionsIntegrator<C> {
                 weight_mm: section.weight_mm,
                 max_depth_mm: section.depth.largest_of_each(),
                 worn_area_mm2: section.area_mm2(),
-                line_load_n_per_mm: if jump > 0 {
+                line_load_n_per_mm: if slid > 0.0 {
                     (section.path - path) / slid
                 } else {
                     section.neutral.load
