@@ -5,7 +5,9 @@
 mod scenes;
 
 use super::*;
+use crate::forecast::{line_forecast, point_forecast};
 use crate::law::surface::SurfaceWear;
+use crate::model::Layout;
 use crate::number::real_cycles;
 use crate::record::BlockWear;
 use crate::scene::{Motion, Order, Power, Refinement};
@@ -171,6 +173,54 @@ fn resumed_missions_reach_the_same_bits(mission: &Scene) {
 #[test]
 fn a_ball_wears_by_blocks_of_one_motion_as_by_one() {
     blocks_of_one_motion_are_one_motion(&ball(0.1), 2e-3, 0.0);
+}
+
+/// Each block has its own schedule in the forecast, as in the run.
+#[test]
+fn missions_are_forecast_block_by_block() {
+    let blocks = [(1e-3, 30), (7e-3, 6)];
+    for scene in [ball(0.1), straight_line(), pressed_bodies()] {
+        let mission = in_order(&scene, &blocks, 10);
+        let (computed, increments, end) = forecast_of(&mission);
+        assert_eq!(end, mission.cycles);
+        let (done, _) = solved(&mission);
+        let ratio = computed / real_cycles(done.resolution.computed_cycles);
+        assert!(
+            (0.6..1.7).contains(&ratio),
+            "{:?}: {ratio}",
+            scene.dimension
+        );
+        let small = forecast_of(&alone(&scene, 1e-3, mission.cycles)).1;
+        assert!(increments > small, "{:?}: {increments}", scene.dimension);
+    }
+}
+
+/// Computed cycles, increments and last cycle of the forecast of a scene.
+fn forecast_of(scene: &Scene) -> (f64, f64, u64) {
+    if let Some(found) = point_forecast(scene) {
+        return (found.computed_cycles, found.increments, found.course.end());
+    }
+    let layout = Layout::of(scene).expect("it can be meshed");
+    let found = line_forecast(scene, &layout).expect("it is along a line");
+    (
+        found.computed_cycles,
+        found.increments(),
+        found.course.end(),
+    )
+}
+
+#[test]
+fn a_block_without_motion_wears_nothing() {
+    for scene in [ball(0.1), straight_line(), pressed_bodies()] {
+        let mission = in_order(&scene, &[(2e-3, 5), (0.0, 4)], 4);
+        let (done, _) = solved(&mission);
+        let (alone, _) = solved(&alone(&scene, 2e-3, 20));
+        assert!(apart(&done, &alone) < 0.5 * scene.accuracy.tolerance);
+        assert_eq!(done.blocks[1].cycles, 16);
+        for area in Side::BOTH.map(|side| *done.blocks[1].worn_area_mm2.of(side)) {
+            assert!(area.abs() < 1e-18, "{area}");
+        }
+    }
 }
 
 #[test]
