@@ -67,6 +67,8 @@ struct Worn {
 struct Block {
     contact: PointScene,
     jumps: JumpControl,
+    /// Product of the half-lengths after its last cycle, mm^2: other blocks have worn the contact since.
+    product: f64,
 }
 
 /// Forecasts the run of a scene; `None` for one that is no point contact. Each block of a mission has its own jumps, and all of them wear one
@@ -82,22 +84,27 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
     } else {
         1.0
     };
-    let mut blocks = blocks(scene, &contact);
+    let (mut done, mut worn, mut is_first) = (0, worn_after(scene, &contact, 0), false);
+    let mut blocks = blocks(scene, &contact, &worn);
     let mut position = MissionPosition::first(scene);
     let mut forecast = PointForecast::default();
-    let (mut done, mut worn, mut is_first) = (0, worn_after(scene, &contact, 0), false);
     while done < cycles {
         if scene.mission.is_some() && done >= position.until {
             position = position.next(scene, at(done), |_, _| 0.0);
             is_first = true;
         }
         let until = position.until.min(cycles);
-        let Block { contact, jumps } = &mut blocks[position.block];
+        let Block {
+            contact,
+            jumps,
+            product,
+        } = &mut blocks[position.block];
         let step = contact.step_over_indentation(worn.rates, worn.along);
         let jump = jumps.next(&contact.accuracy, done, until - done, step);
         let next = worn_after(scene, contact, done + jump);
-        let ratio = worn.along * worn.across / (next.along * next.across);
-        jumps.update(jump, SHARE * (1.0 - ratio));
+        let grown = next.along * next.across;
+        jumps.update(jump, SHARE * (1.0 - *product / grown));
+        *product = grown;
         (done, worn) = (done + jump, next);
         let mut solving = Solving::of(contact, &worn, unworn);
         if is_first && contact.slip == SlipRegime::Partial {
@@ -118,8 +125,8 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
     Some(forecast)
 }
 
-/// The contact in each block.
-fn blocks(scene: &Scene, contact: &PointScene) -> Vec<Block> {
+/// The unworn contact in each block.
+fn blocks(scene: &Scene, contact: &PointScene, unworn: &Worn) -> Vec<Block> {
     let slip = if effects::plan(scene).simulates(Effect::StickMemory) {
         SlipRegime::Partial
     } else {
@@ -129,6 +136,7 @@ fn blocks(scene: &Scene, contact: &PointScene) -> Vec<Block> {
     let blocks = blocks.map(|block| Block {
         contact: contact.in_block(&block, slip),
         jumps: JumpControl::default(),
+        product: unworn.along * unworn.across,
     });
     blocks.collect()
 }
