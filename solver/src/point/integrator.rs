@@ -103,11 +103,12 @@ impl PointIntegrator {
         state: &mut PointState,
         until: u64,
     ) -> Result<PointCycle, PointError> {
-        window::coarsen(
-            &mut state.sliding,
-            self.scene.accuracy.cells_per_half_length,
-        );
-        state.sliding.position = start(&self.scene, &state.sliding.lattice);
+        // A rest wears nothing, also by the round-off of merged cells.
+        if self.scene.path_mm() != 0.0 {
+            let cells = self.scene.accuracy.cells_per_half_length;
+            window::coarsen(&mut state.sliding, cells);
+            state.sliding.position = start(&self.scene, &state.sliding.lattice);
+        }
         let work = state.sliding.work;
         let remaining = until.max(state.done + 1) - state.done;
         let mut attempts = PointAttempts {

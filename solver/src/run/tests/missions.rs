@@ -5,6 +5,7 @@
 mod scenes;
 
 use super::*;
+use crate::error_control;
 use crate::forecast::{line_forecast, point_forecast};
 use crate::law::surface::SurfaceWear;
 use crate::model::Layout;
@@ -220,6 +221,31 @@ fn a_block_without_motion_wears_nothing() {
         for area in Side::BOTH.map(|side| *done.blocks[1].worn_area_mm2.of(side)) {
             assert!(area.abs() < 1e-18, "{area}");
         }
+    }
+}
+
+/// Amplitudes are whole numbers of cells of the grid that all motions of a mission have: another block, without cycles, changes it alone.
+#[test]
+fn a_ball_wears_alike_on_the_grid_of_another_motion() {
+    let ball = ball(0.1);
+    for (amplitude, other) in [(2.3e-3, 7.1e-3), (6.7e-4, 2.9e-3), (2.3e-3, 2.6e-3)] {
+        let (own, _) = solved(&alone(&ball, amplitude, 60));
+        let (found, _) = solved(&in_order(&ball, &[(amplitude, 60), (other, 0)], 1));
+        let apart = apart(&found, &own);
+        assert!(apart < 0.01, "{amplitude}, {other}: {apart}");
+    }
+}
+
+#[test]
+fn missions_state_their_errors() {
+    for mut scene in [ball(0.1), straight_line()] {
+        scene.accuracy.estimate_errors = true;
+        let mission = in_order(&scene, &[(1e-3, 10), (4e-3, 3)], 4);
+        let done = error_control::solve(&mission, &mut Recorder::default());
+        let done = done.expect("it can be solved");
+        let errors = done.errors.expect("they are estimated");
+        let relative = errors.worn_depth.relative;
+        assert!(relative > 0.0 && relative < 0.2, "{errors:?}");
     }
 }
 
