@@ -143,6 +143,15 @@ impl Scene {
         blocks.collect()
     }
 
+    /// Takes the motion of a block of its mission.
+    pub(crate) fn take_motion(&mut self, block: &Self) {
+        self.motion = block.motion;
+        self.timing = block.timing.clone();
+        self.cycles = block.cycles;
+        self.mission.clone_from(&block.mission);
+        self.cycles_at_a_time = block.cycles_at_a_time;
+    }
+
     /// Imposed sliding distance, mm, and time, s, after a number of physical cycles; no time of a continuous motion.
     pub fn elapsed(&self, cycles: f64) -> (f64, Option<f64>) {
         match &self.mission {
@@ -199,6 +208,15 @@ impl Scene {
         let motion = self.timed_motion();
         let wear = self.surface_wear_at(motion.constant());
         wear.map(|wear| wear.map(|wear| motion.mean_wear(wear)))
+    }
+
+    /// The same for a contact that wears by the dose in all of its motions: a law of speed has another rate in each block of a mission.
+    pub fn surface_wear_of_all_motions(&self) -> Sides<Option<SurfaceWear>> {
+        if self.mission.is_some() {
+            self.surface_wear_at(None)
+        } else {
+            self.surface_wear()
+        }
     }
 
     /// Wear of both surfaces with the effects that are switched off left out, at a pace if one is given.

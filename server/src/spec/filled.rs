@@ -34,7 +34,7 @@ pub(super) fn scene_of(spec: &Spec, kind: SystemKind) -> Option<Scene> {
 pub(super) fn resolve(numerics: &Numerics<'_>, diagnostics: &mut Diagnostics) -> Filled {
     let (spec, loading) = (&numerics.spec, numerics.loading);
     let bodies = loading.bodies;
-    model::check(spec, bodies.dimension, loading.movement.scene, diagnostics);
+    model::check(spec, bodies.dimension, &loading.movement, diagnostics);
     changing_friction::check(spec, &bodies.laws.friction, diagnostics);
     let softening = environment::softening(spec, diagnostics);
     let conductors = conductors::resolve(numerics, diagnostics);

@@ -12,9 +12,10 @@ mod stroke;
 use api::problem::Fault;
 use api::spec::{Dimension, LoadKind, Model, Spec, SystemKind};
 use solver::model::{BodyLayout, Layout};
-use solver::scene::{Extruded, Motion, Scene};
+use solver::scene::{Extruded, Scene};
 
 use crate::spec::diagnostics::Diagnostics;
+use crate::spec::movement::Movement;
 use crate::spec::sourced::assumed;
 use crate::spec::system::Shapes;
 use length::length;
@@ -112,7 +113,12 @@ fn round(
 }
 
 /// Checks that a specification asks for nothing that its dimension does not have.
-pub(super) fn check(filled: &Spec, model: Resolved, motion: Motion, diagnostics: &mut Diagnostics) {
+pub(super) fn check(
+    filled: &Spec,
+    model: Resolved,
+    movement: &Movement,
+    diagnostics: &mut Diagnostics,
+) {
     if !matches!(model, Resolved::Line(_) | Resolved::Auto(_)) {
         line::check_overrides_of_others(filled, diagnostics);
     }
@@ -131,7 +137,8 @@ pub(super) fn check(filled: &Spec, model: Resolved, motion: Motion, diagnostics:
         diagnostics.foreign_field("/load", "width_mm", name);
     }
     if name != "auto" {
-        section_only::check(filled, name, motion, diagnostics);
+        let (motion, mission) = (movement.scene, movement.blocks.as_ref());
+        section_only::check(filled, name, motion, mission, diagnostics);
     }
 }
 
@@ -155,7 +162,8 @@ pub(super) fn with_dimension(
             let scene = match force_n {
                 None => scene,
                 Some(force_n) => {
-                    point::with_dimension(scene, Some(radius_across_mm), force_n, diagnostics)
+                    let across = Some(radius_across_mm);
+                    point::with_dimension(scene, across, force_n, spec, diagnostics)
                 }
             };
             if is_chosen {
@@ -170,7 +178,7 @@ pub(super) fn with_dimension(
         }
         Resolved::Extruded(extruded) => {
             section_only::check_laws(&scene, "contact of extruded bodies", diagnostics);
-            extruded::with_dimension(scene, extruded, is_force, diagnostics)
+            extruded::with_dimension(scene, extruded, is_force, spec, diagnostics)
         }
         Resolved::Auto(line) => {
             let chosen = auto::choose(scene, line, is_force, spec, diagnostics);

@@ -69,8 +69,10 @@ pub(crate) trait SectionedContact: Sections + Send {
     /// # Errors
     /// There is no equilibrium.
     fn apply_load(&mut self) -> Result<(), Self::Error>;
-    /// Increments of a cycle for the unworn contact.
-    fn first_increments(&self) -> usize;
+    /// Increments of a cycle of a motion for the present contact.
+    fn increments_of(&self, motion: Motion) -> usize;
+    /// Takes the motion of a block of a mission, or of the whole run.
+    fn take_motion(&mut self, block: &Scene);
     /// Meshes and condenses again what has drifted from the geometry of the operators; returns how many times.
     ///
     /// # Errors

@@ -5,6 +5,7 @@ use super::record::LineRecord;
 use super::slide::slide;
 use super::state::{Progress, SectionsState};
 use crate::number::real_cycles;
+use crate::scene::Motion;
 use crate::schedule::attempts::{Attempts, Remedy, in_wide_zones, longest_accepted_jump};
 use crate::schedule::increments;
 use crate::schedule::plan::Cycles;
@@ -115,12 +116,41 @@ impl<C: SectionedContact> SectionsIntegrator<C> {
         Ok(())
     }
 
+    /// Moves the slider from the turning point of another motion of a mission to that of the present one, without wear.
+    ///
+    /// # Errors
+    /// As [`Self::compute_cycle`].
+    pub(crate) fn change_motion(
+        &mut self,
+        state: &mut SectionsState<C::State>,
+        from: Motion,
+    ) -> Result<(), C::Error> {
+        self.in_threads(|integrator| {
+            integrator.enter(state)?;
+            integrator.progress.end_motion(from);
+            let steps = integrator.steps(from.outer());
+            integrator.slide_unworn(increments::first_quarter(&steps))?;
+            integrator.initial_quarter()?;
+            *state = integrator.state();
+            Ok(())
+        })
+    }
+
     /// Slides to the turning point where cycles begin, without wear.
     fn initial_quarter(&mut self) -> Result<(), C::Error> {
-        let steps = increments::steps(self.contact.motion(), self.contact.first_increments());
-        let quarter = increments::initial_quarter(&steps);
+        let steps = self.steps(self.contact.motion());
+        self.slide_unworn(increments::initial_quarter(&steps))
+    }
+
+    /// Steps of a cycle of a motion for the present contact.
+    fn steps(&self, motion: Motion) -> Vec<Step> {
+        increments::steps(motion, self.contact.increments_of(motion))
+    }
+
+    /// Takes steps without wear.
+    fn slide_unworn(&mut self, steps: &[Step]) -> Result<(), C::Error> {
         in_wide_zones(self, |integrator| {
-            integrator.slide(quarter, 0.0, &ReplayPlan::default())?;
+            integrator.slide(steps, 0.0, &ReplayPlan::default())?;
             Ok(())
         })
     }

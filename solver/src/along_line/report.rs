@@ -1,10 +1,11 @@
 //! Reports of a run of sections: the last computed cycle, its contacts, and what the sections have worn.
 
-use super::contact::SectionedContact;
+use super::contact::{SectionedContact, WornSection};
 use super::integrator::{Before, SectionsIntegrator};
+use super::state::Progress;
 use super::{Ending, StationCycle, StationProfile, StationReport, groove_mm, worn_area_residual};
 use crate::contact::ContactState;
-use crate::cycle::{Checks, FrictionLoop};
+use crate::cycle::{BlockWear, Checks, FrictionLoop};
 use crate::law::surface::{self, SurfaceWear};
 use crate::number::real_cycles;
 use crate::schedule::step::Position;
@@ -13,8 +14,9 @@ use crate::sides::{Side, Sides};
 impl<C: SectionedContact> SectionsIntegrator<C> {
     /// Reports a computed cycle of a jump.
     pub(super) fn report(&self, jump: u64, before: &Before) -> StationCycle {
-        let (contact, done) = (&self.contact, self.progress.done);
-        let per_cycle = contact.plane().motion.distance_per_cycle_mm().abs();
+        let contact = &self.contact;
+        let motion = contact.plane().motion;
+        let per_cycle = motion.distance_per_cycle_mm().abs();
         let slid = per_cycle * real_cycles(jump);
         let worn = contact.worn();
         let sections = worn.iter().zip(&before.paths);
@@ -24,7 +26,7 @@ impl<C: SectionedContact> SectionsIntegrator<C> {
                 weight_mm: section.weight_mm,
                 max_depth_mm: section.depth.largest_of_each(),
                 worn_area_mm2: section.area_mm2(),
-                line_load_n_per_mm: if jump > 0 {
+                line_load_n_per_mm: if slid > 0.0 {
                     (section.path - path) / slid
                 } else {
                     section.neutral.load
@@ -41,10 +43,10 @@ impl<C: SectionedContact> SectionsIntegrator<C> {
         // No load of a spring, no law of layers has an identity.
         let dead = interface.spring <= 0.0;
         let ideal = |work| (interface.wear).map(|wear| SurfaceWear::volume_by_work(wear, work));
-        let of_load = ideal(contact.force_n() * (per_cycle * real_cycles(done)));
+        let of_load = ideal(contact.force_n() * self.progress.distance_mm(motion));
         let (increments, iterations) = contact.solves();
         StationCycle {
-            cycle: done,
+            cycle: self.progress.done,
             jump,
             force_n: over_line(&|j| worn[j].neutral.load),
             worn_volume_mm3: Sides::from_fn(|side| {
@@ -77,13 +79,37 @@ impl<C: SectionedContact> SectionsIntegrator<C> {
 
     /// Cycles until the run ends by the depth of a section, at the present rates.
     pub(crate) fn cycles_left(&self) -> f64 {
+        self.cycles_left_by(|section, _| section.rates)
+    }
+
+    /// The same at rates of the nodes of all sections one after the other, mm a cycle.
+    pub(crate) fn cycles_left_at(&self, rates: Sides<&[f64]>) -> f64 {
+        self.cycles_left_by(|section, before| {
+            Sides::from_fn(|side: Side| {
+                let (first, nodes) = (*before.of(side), section.depth.of(side).len());
+                let own = rates.of(side).get(first..first + nodes);
+                own.unwrap_or_default()
+            })
+        })
+    }
+
+    /// The same at rates of each section, which has so many nodes of all sections before it.
+    fn cycles_left_by<'a>(
+        &'a self,
+        rates: impl Fn(&WornSection<'a>, Sides<usize>) -> Sides<&'a [f64]>,
+    ) -> f64 {
         let radius = self.contact.plane().slider.shape.radius_mm;
         let wear = self.contact.interface().wear;
         let sections = self.contact.worn().into_iter();
+        let mut nodes = Sides::default();
         let left = sections.map(|section| {
             let depth = section.depth;
+            let of_nodes = rates(&section, nodes);
+            for side in Side::BOTH {
+                *nodes.of_mut(side) += depth.of(side).len();
+            }
             let rates = Sides::from_fn(|side: Side| {
-                surface::at_relative_rates(*wear.of(side), section.rates.of(side), depth.of(side))
+                surface::at_relative_rates(*wear.of(side), of_nodes.of(side), depth.of(side))
             });
             let fastest = rates.receptacle.iter();
             let fastest = fastest.fold(f64::MIN_POSITIVE, |most, rate| rate.max(most));
@@ -95,6 +121,35 @@ impl<C: SectionedContact> SectionsIntegrator<C> {
                 .min(groove.max(0.0))
         });
         left.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Totals of the wear so far, as means over the line, at the nodes of all sections one after the other.
+    pub(crate) fn totals(&self) -> BlockWear {
+        let Progress { done, last, .. } = &self.progress;
+        let weights = last.stations.iter().map(|station| station.weight_mm);
+        let length: f64 = weights.sum();
+        let wear = self.contact.interface().wear;
+        let totals = BlockWear::whole(
+            *done,
+            self.progress.distance_mm(self.contact.plane().motion),
+            last.dissipated_energy_mj / length,
+            last.worn_volume_mm3.map(|volume| volume / length),
+        );
+        let sections = self.contact.worn();
+        totals.with_equivalents(Sides::from_fn(|side| {
+            let depths = sections.iter().map(|section| section.depth.of(side));
+            let equivalents = depths.map(|depth| surface::equivalents(*wear.of(side), depth));
+            equivalents.collect::<Vec<_>>().concat()
+        }))
+    }
+
+    /// Worn depths at these nodes, mm.
+    pub(crate) fn nodal_depths(&self) -> Sides<Vec<f64>> {
+        let sections = self.contact.worn();
+        Sides::from_fn(|side| {
+            let depths = sections.iter().map(|section| &section.depth.of(side)[..]);
+            depths.collect::<Vec<_>>().concat()
+        })
     }
 
     /// The friction loop of the last computed cycle, which begins at its turning point.

@@ -3,12 +3,17 @@
 use serde::{Deserialize, Serialize};
 
 use super::StationCycle;
+use crate::number::real_cycles;
+use crate::scene::Motion;
 
 /// Progress of a run.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Progress {
     /// Cycles done.
     pub(super) done: u64,
+    /// Cycles done before the present motion, and the sliding distance in them, mm.
+    before: u64,
+    distance_before_mm: f64,
     pub(super) computed: u64,
     /// Most increments of a cycle.
     pub(super) most_increments: usize,
@@ -23,6 +28,20 @@ pub(crate) struct Progress {
 pub struct SectionsState<S> {
     pub(crate) sections: S,
     pub(super) progress: Progress,
+}
+
+impl Progress {
+    /// Ends a motion.
+    pub(super) fn end_motion(&mut self, motion: Motion) {
+        self.distance_before_mm = self.distance_mm(motion);
+        self.before = self.done;
+    }
+
+    /// Sliding distance so far, mm, with that of the present motion.
+    pub(super) fn distance_mm(&self, motion: Motion) -> f64 {
+        let cycles = real_cycles(self.done - self.before);
+        self.distance_before_mm + motion.distance_per_cycle_mm().abs() * cycles
+    }
 }
 
 impl<S> SectionsState<S> {

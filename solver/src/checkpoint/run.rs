@@ -7,11 +7,11 @@ use super::section::SectionState;
 use crate::cycle::{MissionState, MotionHistory};
 use crate::effects::Crossing;
 use crate::electrical::ElectricalState;
-use crate::extruded::ExtrudedState;
-use crate::point::PointState;
+use crate::extruded::{ExtrudedHistory, ExtrudedState};
+use crate::point::{PointHistory, PointState};
 use crate::record::{Compared, Initial, Life};
 use crate::scene::{Motion, Scene};
-use crate::station::LineState;
+use crate::station::{LineHistory, LineState};
 
 /// A run between two computed cycles: the state of its contact, and the history that a motion leaves where a run has several.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -36,13 +36,13 @@ pub struct Run<S, H> {
 pub type SectionRun = Run<SectionState, MotionHistory>;
 
 /// A run of a point contact.
-pub type PointRun = Run<PointState, ()>;
+pub type PointRun = Run<PointState, PointHistory>;
 
 /// A run of a contact along a line.
-pub type LineRun = Run<LineState, ()>;
+pub type LineRun = Run<LineState, LineHistory>;
 
 /// A run of extruded bodies.
-pub type ExtrudedRun = Run<ExtrudedState, ()>;
+pub type ExtrudedRun = Run<ExtrudedState, ExtrudedHistory>;
 
 impl<S, H> Run<S, H> {
     /// Restores an earlier state for effects that were skipped.

@@ -208,6 +208,44 @@ impl PointScene {
         Some(contact)
     }
 
+    /// The contact in a block of a mission, or in the whole run, if it may stick as given.
+    pub(crate) fn in_block(self, block: &Scene, slip: SlipRegime) -> Self {
+        let of_mission = block.cycles_at_a_time.is_some();
+        let moving = if of_mission {
+            self.in_motion(block.motion, slip)
+        } else {
+            Self {
+                slip,
+                ..self.moving(block.motion)
+            }
+        };
+        Self {
+            cycles: block.cycles,
+            accuracy: PointAccuracy::of(block, self.half_lengths_mm().0),
+            ..moving
+        }
+    }
+
+    /// The contact in the motion of a block of a mission: it slips as a whole where the amplitude is not small against it.
+    pub(crate) fn in_motion(self, motion: Motion, slip: SlipRegime) -> Self {
+        let moving = self.moving(motion);
+        let slip = if moving.may_stick() {
+            slip
+        } else {
+            SlipRegime::Gross
+        };
+        Self { slip, ..moving }
+    }
+
+    /// Passes begin at the turning point on the side of -A.
+    fn moving(self, motion: Motion) -> Self {
+        Self {
+            amplitude_mm: -motion.amplitude_mm(),
+            path: CyclePath::of(motion),
+            ..self
+        }
+    }
+
     /// Contact modulus E*, MPa.
     pub fn modulus(&self) -> f64 {
         contact_modulus(self.bodies.slider.elastic, self.bodies.receptacle.elastic)

@@ -31,6 +31,11 @@ impl Neutral {
             friction: contact.friction,
         }
     }
+
+    /// The contact under the load of a present height: that of an earlier cycle had another one.
+    pub(crate) fn with_load(self, load: f64) -> Self {
+        Self { load, ..self }
+    }
 }
 
 /// Friction force over displacement during one cycle.

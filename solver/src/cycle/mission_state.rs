@@ -151,6 +151,11 @@ impl BlockWear {
         }
     }
 
+    /// The totals with these equivalent depths at the nodes, mm.
+    pub(crate) fn with_equivalents(self, equivalent: Sides<Vec<f64>>) -> Self {
+        Self { equivalent, ..self }
+    }
+
     /// Adds the difference of two totals.
     fn add(&mut self, after: &Self, before: &Self) {
         self.cycles += after.cycles - before.cycles;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{CycleState, Neutral, Skew, WarmStarts};
-use crate::schedule::jump::JumpControl;
+use crate::schedule::jump::{self, JumpControl};
 
 /// Jump control and contact of a motion.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -39,11 +39,7 @@ impl CycleState {
         } = history;
         self.jump = jump;
         self.warm_starts = warm_starts;
-        // The load is that of the present height.
-        self.neutral = Neutral {
-            load: self.neutral.load,
-            ..neutral
-        };
+        self.neutral = neutral.with_load(self.neutral.load);
         self.mean_half_width = mean_half_width;
         self.skew = skew;
     }
@@ -59,14 +55,9 @@ impl CycleState {
 
 /// Estimated relative error of the worn depth by the jumps of a state and of the motions that are not under way.
 pub(crate) fn mean_error<'a>(
-    state: &CycleState,
+    state: &'a CycleState,
     histories: impl Iterator<Item = &'a MotionHistory>,
 ) -> f64 {
-    let (mut error, mut worn) = state.jump.weighted_error();
-    for history in histories {
-        let (more_error, more_worn) = history.jump.weighted_error();
-        error += more_error;
-        worn += more_worn;
-    }
-    if worn > 0.0 { error / worn } else { 0.0 }
+    let earlier = histories.map(|history| &history.jump);
+    jump::mean_error([&state.jump].into_iter().chain(earlier))
 }

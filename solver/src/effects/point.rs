@@ -47,11 +47,11 @@ pub(super) fn can_simulate(scene: &Scene, effect: Effect) -> bool {
         | Effect::SpringFading
         | Effect::Resistance
         | Effect::AcrossWidth => true,
-        // Surfaces that stick in part wear in place.
-        Effect::StickMemory => {
-            let contact = PointScene::of(scene, SlipRegime::Partial);
+        // Surfaces that stick in part wear in place: where a motion of a mission is too long for that, all of the contact slips in it.
+        Effect::StickMemory => scene.blocks().iter().any(|block| {
+            let contact = PointScene::of(block, SlipRegime::Partial);
             contact.is_some_and(|contact| contact.may_stick())
-        }
+        }),
         _ => false,
     }
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::bodies::Bodies;
 use super::cycle::{ExtrudedContact, SavedPlanes};
 use super::error::ExtrudedError;
-use super::scene::ExtrudedScene;
+use super::scene::{ExtrudedScene, to_the_right};
 use super::state::{ExtrudedState, PlanesState};
 use crate::along_line::{
     Along, SectionedContact, Sections, SectionsError, SectionsIncrement, SectionsIntegrator,
@@ -105,10 +105,20 @@ impl SectionedContact for ExtrudedContact {
         Ok(())
     }
 
-    fn first_increments(&self) -> usize {
+    fn increments_of(&self, motion: Motion) -> usize {
         let half_width = self.planes.mean_half_width;
-        let (motion, accuracy) = (self.plane.motion, &self.plane.accuracy);
-        increments::count(motion, accuracy, half_width, false)
+        increments::count(
+            to_the_right(motion),
+            &self.plane.accuracy,
+            half_width,
+            false,
+        )
+    }
+
+    fn take_motion(&mut self, block: &Scene) {
+        self.scene.section.take_motion(block);
+        self.plane.take_motion(block);
+        self.plane.motion = to_the_right(block.motion);
     }
 
     fn follow_wear(&mut self) -> Result<u64, ExtrudedError> {

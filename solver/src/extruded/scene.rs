@@ -68,18 +68,8 @@ impl ExtrudedScene {
     /// The plane scene without sticking, in which the first stroke goes to the right.
     pub(crate) fn plane(&self) -> Scene {
         let section = self.section.clone();
-        let motion = match section.motion {
-            Motion::Reciprocating {
-                amplitude_mm,
-                period_s,
-            } => Motion::Reciprocating {
-                amplitude_mm: amplitude_mm.abs(),
-                period_s,
-            },
-            other => other,
-        };
         Scene {
-            motion,
+            motion: to_the_right(section.motion),
             effects: section.effects.clone().with(Effect::StickMemory, false),
             ..section
         }
@@ -148,5 +138,19 @@ impl ExtrudedScene {
             });
         }
         Ok(())
+    }
+}
+
+/// A motion whose first stroke goes to the right.
+pub(super) fn to_the_right(motion: Motion) -> Motion {
+    match motion {
+        Motion::Reciprocating {
+            amplitude_mm,
+            period_s,
+        } => Motion::Reciprocating {
+            amplitude_mm: amplitude_mm.abs(),
+            period_s,
+        },
+        other => other,
     }
 }

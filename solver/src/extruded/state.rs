@@ -84,9 +84,4 @@ impl ExtrudedState {
     pub(crate) fn work(&self) -> Work {
         self.sections.effort.work
     }
-
-    /// Estimated relative error of the worn depth by the jumps so far.
-    pub(crate) fn mean_jump_error(&self) -> f64 {
-        self.sections.common.jump.mean_error()
-    }
 }

@@ -3,23 +3,25 @@
 //! Under a rigid top the line load of a ring is (pi/2) (F/L) cos(theta) where the contact leaves its own width, and about
 //! half of the mean where it does not; elsewhere it is the mean. A section wears by the whole path, also along the line.
 //!
-//! Extruded bodies follow one section, whose increments are solved for the nodes of all planes together.
+//! A mission has a scar of its own for each block in each section, whose depths add up (`worn`). Extruded bodies follow one section, whose increments are solved for the nodes of all planes together.
+
+mod worn;
 
 use super::course::Course;
 use super::edges::Edges;
 use super::solved;
 use super::surrogate::Scar;
-use crate::change::Change;
 use crate::closed_form::expected_wear;
 use crate::extruded::ExtrudedScene;
 use crate::model::Layout;
 use crate::number::{real, real_cycles};
-use crate::scene::{Dimension, LineShape, Motion, RingMotion, Scene, Top};
-use crate::schedule::jump::JumpControl;
-use crate::schedule::plan::{CyclePlan, Cycles, Followed};
-use crate::schedule::stops::{self, StopQuantities};
-use crate::sides::{Side, Sides};
+use crate::scene::{LineShape, Motion, RingMotion, Scene, Top};
+use crate::schedule::mission::MissionPosition;
+use crate::schedule::plan::Cycles;
+use crate::schedule::stops;
+use crate::sides::Sides;
 use crate::station::StationScene;
+use worn::{Section, WornLine};
 
 /// Computed cycles that are forecast one by one; the rest is extrapolated from the last.
 const MOST_CYCLES: usize = 1_000;
@@ -65,16 +67,6 @@ struct SolveCounts {
     planes: usize,
 }
 
-/// A followed section.
-struct Section {
-    scar: Scar,
-    jump: JumpControl,
-    motion: Motion,
-    /// Depths at which its operators were built, mm.
-    built: Sides<f64>,
-    heights: Sides<f64>,
-}
-
 /// Forecasts a run of a scene from the layout of its section; `None` for one that is not along a line.
 pub fn line_forecast(scene: &Scene, layout: &Layout) -> Option<LineForecast> {
     if let Some(line) = StationScene::of(scene) {
@@ -82,8 +74,11 @@ pub fn line_forecast(scene: &Scene, layout: &Layout) -> Option<LineForecast> {
             accuracy: line.plane().accuracy,
             ..scene.clone()
         };
-        let sections = followed(scene, &line, layout);
-        let share = real(touching(scene, &line)) / real(sections.len());
+        let leading = leading_load(scene, &line);
+        let blocks = scene.blocks().into_iter();
+        let blocks = blocks.map(|block| followed(&block, &line, layout, leading));
+        let worn = WornLine::new(scene, blocks.collect());
+        let share = real(touching(scene, &line)) / real(worn.sections());
         let each = match line.top {
             Top::Rigid | Top::Pressure => RIGID_SOLVES,
             Top::Even => 1.0,
@@ -93,24 +88,26 @@ pub fn line_forecast(scene: &Scene, layout: &Layout) -> Option<LineForecast> {
             share,
             planes: 1,
         };
-        return Some(forecast(scene, layout, sections, line.stations, solves));
+        return Some(forecast(scene, layout, worn, line.stations, solves));
     }
     let extruded = ExtrudedScene::of(scene)?;
     let planes = extruded.node_planes();
-    let section = Section::new(scene, layout, scene.motion, 1.0);
+    let blocks = scene.blocks().into_iter();
+    let blocks = blocks.map(|block| vec![Section::new(&block, layout, block.motion, 1.0)]);
+    let worn = WornLine::new(scene, blocks.collect());
     let solves = SolveCounts {
         each: EXTRUDED_SOLVES,
         share: 1.0,
         planes,
     };
-    Some(forecast(scene, layout, vec![section], planes, solves))
+    Some(forecast(scene, layout, worn, planes, solves))
 }
 
 /// Forecasts a run of followed sections, of so many stations.
 fn forecast(
     scene: &Scene,
     layout: &Layout,
-    mut sections: Vec<Section>,
+    mut worn: WornLine,
     stations: usize,
     solves: SolveCounts,
 ) -> LineForecast {
@@ -124,49 +121,57 @@ fn forecast(
         },
         ..LineForecast::default()
     };
-    let (mut cycle, mut last) = (0, 1);
+    let mut position = MissionPosition::first(scene);
+    let (mut cycle, mut last, mut is_first) = (0, 1, false);
     let mut edges = Edges::new(scene);
-    while stops::end(scene, progress(&sections, cycle), |side, part| {
-        deepest(&sections, side, part)
-    })
-    .is_none()
-        && !is_too_deep(scene, &sections)
-    {
-        if forecast.solves.len() / sections.len() >= MOST_CYCLES {
+    while !worn.is_done(scene, position.block, cycle) {
+        if forecast.solves.len() / worn.sections() >= MOST_CYCLES {
             let end = expected_wear::expected_end(scene).max(cycle);
-            forecast.extrapolate(cycle, end, last, sections.len());
+            forecast.extrapolate(cycle, end, last, worn.sections());
             break;
         }
-        let now = progress(&sections, cycle);
-        let until = stops::next(scene, now, |side, part| deepest(&sections, side, part));
-        let mut jump = until - cycle;
-        for section in &mut sections {
-            let mut stroke = section.scar.stroke(scene, cycle);
-            stroke.is_groove = false;
-            let next = section.jump.next(&scene.accuracy, stroke, until - cycle);
-            jump = jump.min(next);
+        if scene.mission.is_some() && cycle >= position.until {
+            let depth = |side, part| worn.deepest(side, part);
+            position = position.next(scene, worn.mean_progress(cycle), depth);
+            worn.change_motion(position.block);
+            is_first = true;
         }
+        let now = worn.progress(position.block, cycle);
+        let next = stops::next(scene, now, |side, part| worn.deepest(side, part));
+        let (until, _) = position.next_reported(scene, next);
+        let mut jump = worn.next_jump(
+            scene,
+            position.block,
+            Cycles {
+                done: cycle,
+                jump: until - cycle,
+            },
+        );
         if scene.accuracy.cycle_jump.is_none() {
-            let depth = |side| deepest(&sections, side, 0.0);
+            let depth = |side| worn.deepest(side, 0.0);
             jump = jump.min(edges.largest_jump(&scene.accuracy, cycle, depth));
         }
         let cycles = Cycles { done: cycle, jump };
-        let increments = increments(scene, &sections, cycles);
-        for section in &mut sections {
-            section.wear(jump);
-        }
+        let increments = worn.increments(scene, position.block, cycles);
+        worn.wear(position.block, jump);
         cycle += jump;
         last = jump;
+        // A quarter of a cycle from the last motion to the neutral position, and another one from there.
+        let changed = if is_first {
+            0.5 * real(increments)
+        } else {
+            0.0
+        };
+        is_first = false;
+        let taken = real(increments) + changed;
         forecast.computed_cycles += 1.0;
-        forecast.course.add(cycle, real(increments));
+        forecast.course.add(cycle, taken);
         forecast.most_increments = forecast.most_increments.max(increments);
-        for section in &mut sections {
-            let nodes = solves.planes * solved(x, &section.scar);
-            forecast
-                .solves
-                .push((nodes, solves.each * real(increments)));
-            section.rebuild(scene, solves.share, &mut forecast.condensations);
+        for scar in worn.scars(position.block) {
+            let nodes = solves.planes * solved(x, scar);
+            forecast.solves.push((nodes, solves.each * taken));
         }
+        worn.rebuild(scene, solves.share, &mut forecast.condensations);
     }
     forecast.fast_layer = edges.course(cycle);
     forecast
@@ -190,8 +195,8 @@ fn touching(scene: &Scene, line: &StationScene) -> usize {
     }
 }
 
-/// The followed sections.
-fn followed(scene: &Scene, line: &StationScene, layout: &Layout) -> Vec<Section> {
+/// The followed sections, of which those of a straight line have this load over the mean one.
+fn followed(scene: &Scene, line: &StationScene, layout: &Layout, leading: f64) -> Vec<Section> {
     let angles: &[f64] = match line.line {
         LineShape::Ring {
             motion: RingMotion::InPlane,
@@ -201,7 +206,6 @@ fn followed(scene: &Scene, line: &StationScene, layout: &Layout) -> Vec<Section>
         LineShape::Straight { .. } => &ANGLES[..1],
     };
     let is_rigid_ring = angles.len() > 1 && line.top == Top::Rigid;
-    let leading = leading_load(scene, line);
     let whole = Scar::new(scene, layout, false).area_per_cycle;
     let sections = angles.iter().map(|angle| {
         let (sin, cos) = angle.to_radians().sin_cos();
@@ -227,97 +231,6 @@ fn followed(scene: &Scene, line: &StationScene, layout: &Layout) -> Vec<Section>
         section
     });
     sections.collect()
-}
-
-impl Section {
-    /// A section in a motion under its line load over the mean one.
-    fn new(scene: &Scene, layout: &Layout, motion: Motion, load: f64) -> Self {
-        let own = Scene {
-            dimension: Dimension::PlaneStrain,
-            load_n_per_mm: load * scene.load_n_per_mm,
-            motion,
-            ..scene.clone()
-        };
-        Self {
-            scar: Scar::new(&own, layout, false),
-            jump: JumpControl::default(),
-            motion,
-            built: Sides::default(),
-            heights: Sides {
-                slider: scene.slider.shape.height_mm,
-                receptacle: scene.receptacle.shape.height_mm,
-            },
-        }
-    }
-
-    fn wear(&mut self, jump: u64) {
-        let before = self.scar.depth.clone();
-        self.scar.wear(jump);
-        let depth = Change {
-            before: before.as_slices(),
-            after: self.scar.depth.as_slices(),
-        };
-        self.jump.share(jump);
-        self.jump.update(self.scar.widths(), 0.0, depth, jump);
-    }
-
-    /// Counts a condensation of the bodies that have changed where one has drifted, for so many sections.
-    fn rebuild(&mut self, scene: &Scene, share: f64, condensations: &mut Sides<f64>) {
-        let drift = scene.accuracy.drift_share();
-        let drifted = |side: Side| {
-            let (now, built) = (self.scar.deepest.of(side), self.built.of(side));
-            now - built > drift * (self.heights.of(side) - built)
-        };
-        if Side::BOTH.into_iter().any(drifted) {
-            self.built = self.scar.deepest;
-            for side in Side::BOTH {
-                *condensations.of_mut(side) += share;
-            }
-        }
-    }
-}
-
-/// Increments of a cycle: those of the section that needs most.
-fn increments(scene: &Scene, sections: &[Section], cycles: Cycles) -> usize {
-    let of_section = |section: &Section| {
-        let mut stroke = section.scar.stroke(scene, cycles.done);
-        stroke.is_groove = false;
-        let followed = Followed {
-            half_width: section.scar.half_width,
-            single: section.scar.half_width,
-            sticks: false,
-        };
-        let (motion, accuracy) = (section.motion, &scene.accuracy);
-        CyclePlan::new(motion, accuracy, followed, stroke, cycles, false).increments()
-    };
-    sections.iter().map(of_section).fold(1, usize::max)
-}
-
-/// Depth that a part of the scar has at least, of the deepest section, mm.
-fn deepest(sections: &[Section], side: Side, part: f64) -> f64 {
-    let depths = sections
-        .iter()
-        .map(|section| section.scar.depth_of_part(side, part));
-    depths.fold(0.0, f64::max)
-}
-
-/// Returns `true` if the groove of a section is as deep as the slider's radius.
-fn is_too_deep(scene: &Scene, sections: &[Section]) -> bool {
-    deepest(sections, Side::Receptacle, 0.0) >= scene.slider.shape.radius_mm
-}
-
-fn progress(sections: &[Section], cycle: u64) -> StopQuantities {
-    let rates = sections.iter().map(|section| section.jump.fastest_rate());
-    let fastest_rate = rates.fold(Sides::default(), |most: Sides<f64>, rate| {
-        most.zip(rate).map(|(most, rate)| most.max(rate))
-    });
-    StopQuantities {
-        cycle,
-        cycles_left: f64::INFINITY,
-        fastest_rate,
-        worn_through: false,
-        exceeds_resistance: false,
-    }
 }
 
 impl LineForecast {

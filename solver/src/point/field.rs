@@ -31,6 +31,11 @@ impl Field {
         }
     }
 
+    /// Cells on either side of the middle, along and across.
+    pub(super) fn half(&self) -> (usize, usize) {
+        self.half
+    }
+
     /// Cells across.
     pub(super) fn width(&self) -> usize {
         2 * self.half.1

@@ -1,14 +1,15 @@
 //! Computed cycles of a point contact: each stands for a jump, whose wear both of its passes do at once.
 
-use super::check;
 use super::contact_at_position::ContactAtPosition;
 use super::error::PointError;
 use super::jump::{JumpControl, jump_error, rejected, share_in_wear};
+use super::lattice::Lattice;
 use super::legs::legs;
+use super::motions::PointMotions;
 use super::point_state::PointState;
 use super::record::PointCycle;
 use super::sliding::Sliding;
-use super::state::State;
+use super::state::{State, start};
 use super::surface::{Surface, WearSums};
 use super::window;
 use crate::closed_form::{CyclePath, PointScene, SlipRegime};
@@ -24,20 +25,29 @@ const UNSKEWED_TO: f64 = 0.1;
 
 /// Computes the cycles of a point contact.
 pub(crate) struct PointIntegrator {
-    scene: PointScene,
-    sliding: Sliding,
+    /// The contact in its present motion.
+    pub(super) scene: PointScene,
+    /// Slip where the amplitude is small against the contact.
+    pub(super) slip: SlipRegime,
+    pub(super) sliding: Sliding,
+    /// Grids of the unworn contact.
+    pub(super) unworn: Lattice,
 }
 
 impl PointIntegrator {
-    /// The unworn contact without load.
+    /// The unworn contact without load in the first of its motions.
     ///
     /// # Errors
     /// A scene that is no point contact.
-    pub(crate) fn unloaded(scene: &PointScene) -> Result<Self, PointError> {
-        check::check(scene)?;
+    pub(crate) fn unloaded(motions: &PointMotions) -> Result<Self, PointError> {
+        motions.check()?;
+        let unworn = motions.lattice();
+        let scene = *motions.first();
         Ok(Self {
-            sliding: Sliding::new(scene, &State::unworn(scene)),
-            scene: *scene,
+            sliding: Sliding::new(&scene, &State::unworn(&scene, unworn)),
+            slip: motions.slip,
+            scene,
+            unworn,
         })
     }
 
@@ -47,7 +57,7 @@ impl PointIntegrator {
     /// A contact without a solution.
     pub(crate) fn load(&mut self) -> Result<PointState, PointError> {
         let (scene, sliding) = (&self.scene, &mut self.sliding);
-        let mut state = State::unworn(scene);
+        let mut state = State::unworn(scene, self.unworn);
         sliding.load(&mut state)?;
         if scene.slip == SlipRegime::Partial {
             // To the turning point where the first pass begins, without wear.
@@ -61,6 +71,7 @@ impl PointIntegrator {
             turning: [neutral.clone(), neutral.clone()],
             neutral,
             done: 0,
+            sliding_distance_mm: 0.0,
             computed: 0,
             most_increments: 0,
             last: PointCycle::default(),
@@ -73,10 +84,13 @@ impl PointIntegrator {
     }
 
     /// For a state of a checkpoint.
-    pub(crate) fn resume(scene: &PointScene, state: &PointState) -> Self {
+    pub(crate) fn resume(motions: &PointMotions, state: &PointState) -> Self {
+        let scene = *motions.first();
         Self {
-            sliding: Sliding::new(scene, &state.sliding),
-            scene: *scene,
+            sliding: Sliding::new(&scene, &state.sliding),
+            slip: motions.slip,
+            scene,
+            unworn: motions.lattice(),
         }
     }
 
@@ -89,10 +103,12 @@ impl PointIntegrator {
         state: &mut PointState,
         until: u64,
     ) -> Result<PointCycle, PointError> {
-        window::coarsen(
-            &mut state.sliding,
-            self.scene.accuracy.cells_per_half_length,
-        );
+        // A rest wears nothing, also by the round-off of merged cells.
+        if self.scene.path_mm() != 0.0 {
+            let cells = self.scene.accuracy.cells_per_half_length;
+            window::coarsen(&mut state.sliding, cells);
+            state.sliding.position = start(&self.scene, &state.sliding.lattice);
+        }
         let work = state.sliding.work;
         let remaining = until.max(state.done + 1) - state.done;
         let mut attempts = PointAttempts {
@@ -104,6 +120,7 @@ impl PointIntegrator {
         let (jump, error) = longest_accepted_jump(&mut attempts, first)?;
         state.control.update(jump, error);
         state.done += jump;
+        state.sliding_distance_mm += self.scene.path_mm() * real_cycles(jump);
         state.error_sum += real_cycles(jump) * error;
         state.computed += 1;
         state.last = self.report(state, jump, error, work);
@@ -129,7 +146,7 @@ impl PointIntegrator {
                     state.take_contact(leg.at, at);
                 }
             }
-            SlipRegime::Gross if state.sliding.lattice.amplitude == 0 => {
+            SlipRegime::Gross if state.sliding.lattice.is_in_place(scene.amplitude_mm) => {
                 sliding.wear_in_place(&mut state.sliding, jump)?;
                 // The last pass goes from -A to A or back as the amplitude says; so does the one through the neutral position.
                 let last = -scene.amplitude_mm.signum();
@@ -139,8 +156,7 @@ impl PointIntegrator {
             }
             SlipRegime::Gross => {
                 for leg in &legs {
-                    let to = leg.to / scene.amplitude_mm.abs();
-                    let to = state.sliding.lattice.position(to);
+                    let to = state.sliding.lattice.position(leg.to);
                     sliding.pass(&mut state.sliding, to, leg.length(), jump)?;
                     if leg.at.is_some() {
                         let at = ContactAtPosition::of(scene, &state.sliding, leg.direction());
@@ -182,7 +198,8 @@ impl PointIntegrator {
 
     /// Leading-edge step over the indentation that a cycle leaves.
     fn step(&self, state: &PointState) -> f64 {
-        if state.sliding.lattice.amplitude == 0 {
+        let lattice = &state.sliding.lattice;
+        if lattice.is_in_place(self.scene.amplitude_mm) {
             return 0.0;
         }
         let surfaces = state.sliding.surfaces.as_ref();

@@ -5,11 +5,14 @@
 //! j = 0; over a flat receptacle c = j, over a convex one the contact travels less, c = n + (j - n) R_r/(R_s + R_r) rounded, and
 //! moves over the slider for the rest. Amplitudes below half a cell are not resolved (n = 0): both surfaces wear in place, which
 //! neglects the travel A against the length of the contact.
+//!
+//! The motions of a mission have one grid, on which the largest amplitude is n cells long and the others are whole numbers of cells nearly:
+//! of the finer grids one is chosen that rounds them by little against the length of their scars.
 
 use serde::{Deserialize, Serialize};
 
 use super::field::Axis;
-use crate::closed_form::{PointScene, SlipRegime};
+use crate::closed_form::PointScene;
 use crate::contact::area::Cells;
 use crate::number::{count_at_least, nearest, real};
 use crate::sides::Side;
@@ -17,13 +20,20 @@ use crate::sides::Side;
 /// Half-length of the window over that of the unworn contact. Arbitrary: windows widen.
 const MARGIN: f64 = 1.4;
 
+/// Error of an amplitude that is rounded to whole cells, over half of the length of its scar, up to which a grid is fine enough: the depth of
+/// a groove goes with its inverse, and the tolerance is several times that.
+const ROUNDING: f64 = 2e-3;
+/// Most cells of the largest amplitude over the fewest, for amplitudes that no grid rounds by so little. Arbitrary.
+const FINEST: f64 = 1.5;
+
 /// Numbers and sizes of cells.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Lattice {
     /// Length and width of a cell, mm.
     pub(super) size_mm: (f64, f64),
-    /// Cells of the amplitude, n.
+    /// Cells of the largest amplitude, n, and its length, mm.
     pub(super) amplitude: usize,
+    amplitude_mm: f64,
     /// Cells of the window on either side of its middle, along and across.
     window: (usize, usize),
     /// Part of the slider's displacement by which the contact travels over the receptacle.
@@ -31,20 +41,25 @@ pub(super) struct Lattice {
 }
 
 impl Lattice {
-    /// The grids of an unworn contact.
-    pub(super) fn of(scene: &PointScene) -> Self {
+    /// The grids of an unworn contact for the amplitudes of all motions in which it slips as a whole, mm.
+    pub(super) fn of(scene: &PointScene, amplitudes_mm: &[f64]) -> Self {
         let (along, across) = scene.half_lengths_mm();
         let cells = scene.accuracy.cells_per_half_length;
         let target = along / cells;
-        let amplitude_mm = scene.amplitude_mm.abs();
+        let amplitudes = amplitudes_mm.iter().map(|amplitude| amplitude.abs());
+        let amplitude_mm = amplitudes.clone().fold(0.0, f64::max);
         let travel = scene.travel_over_receptacle();
         // A slider that wears alone on a plane has the same contact everywhere.
         let is_steady = scene.bodies.receptacle.wear.is_none() && travel >= 1.0;
-        let in_place = is_steady || scene.slip == SlipRegime::Partial;
-        let amplitude = if in_place || amplitude_mm < 0.5 * target {
+        let amplitude = if is_steady || amplitude_mm < 0.5 * target {
             0
         } else {
-            often_even(count_at_least(amplitude_mm / target))
+            let scars = amplitudes.map(|own| Scar {
+                over_largest: own / amplitude_mm,
+                half_length_over_largest: (own + along) / amplitude_mm,
+            });
+            let scars: Vec<Scar> = scars.collect();
+            whole_cells(count_at_least(amplitude_mm / target), &scars)
         };
         let dx_mm = if amplitude == 0 {
             target
@@ -55,6 +70,7 @@ impl Lattice {
         Self {
             size_mm: (dx_mm, dz_mm),
             amplitude,
+            amplitude_mm,
             window: (
                 count_at_least(MARGIN * along / dx_mm),
                 count_at_least(MARGIN * cells),
@@ -87,10 +103,24 @@ impl Lattice {
         }
     }
 
-    /// Position of the slider nearest to a displacement over the amplitude, from -1 to 1.
-    pub(super) fn position(&self, over_amplitude: f64) -> usize {
+    /// Position of the slider nearest to a displacement in mm of a motion in which all of the contact slips.
+    pub(super) fn position(&self, displacement_mm: f64) -> usize {
+        if self.amplitude == 0 {
+            return 0;
+        }
         let n = real(self.amplitude);
-        nearest(n + n * over_amplitude)
+        nearest(n + n * (displacement_mm / self.amplitude_mm))
+    }
+
+    /// Returns `true` if an amplitude in mm is not resolved.
+    pub(super) fn is_in_place(&self, amplitude_mm: f64) -> bool {
+        self.position(amplitude_mm.abs()) == self.amplitude
+    }
+
+    /// Centres of the cells of a body's grid along the sliding direction, mm.
+    pub(super) fn x_mm(&self, side: Side) -> impl Iterator<Item = f64> {
+        let (half, length) = (self.half(side).0, self.size_mm.0);
+        (0..2 * half).map(move |row| length * (real(row) - real(half) + 0.5))
     }
 
     /// Cells that the window may move over the slider to either side.
@@ -158,6 +188,36 @@ impl Lattice {
     }
 }
 
+/// The scar of a motion, over the largest amplitude.
+struct Scar {
+    /// Its own amplitude.
+    over_largest: f64,
+    /// Half of the length of its scar.
+    half_length_over_largest: f64,
+}
+
+/// Cells of the largest amplitude, at least so many, of which the amplitudes of all scars are nearly whole numbers.
+fn whole_cells(least: usize, scars: &[Scar]) -> usize {
+    let error = |cells: usize| {
+        let rounded = scars.iter().map(|scar| {
+            let own = real(cells) * scar.over_largest;
+            (own - own.round()).abs() / (real(cells) * scar.half_length_over_largest)
+        });
+        rounded.fold(0.0, f64::max)
+    };
+    let first = often_even(least);
+    let finest = nearest(FINEST * real(first));
+    let mut cells = first;
+    let mut best = first;
+    while error(best) > ROUNDING && cells < finest {
+        cells = often_even(cells + 1);
+        if cells <= finest && error(cells) < error(best) {
+            best = cells;
+        }
+    }
+    best
+}
+
 /// The smallest number from this one on that can be halved until it is below 8, or a power of two below 8.
 fn often_even(least: usize) -> usize {
     if least < 8 {
@@ -180,10 +240,26 @@ mod tests {
     }
 
     #[test]
+    fn all_amplitudes_are_nearly_whole_numbers_of_cells() {
+        let cells = |least, parts: &[f64]| {
+            let scars = parts.iter().map(|part| Scar {
+                over_largest: *part,
+                half_length_over_largest: part + 0.1,
+            });
+            whole_cells(least, &scars.collect::<Vec<_>>())
+        };
+        assert_eq!(cells(100, &[1.0]), 112);
+        assert_eq!(cells(9, &[1.0, 0.5]), 10);
+        // 7.33 of 22 cells, 8 of 24.
+        assert_eq!(cells(21, &[1.0, 1.0 / 3.0]), 24);
+    }
+
+    #[test]
     fn the_window_follows_the_contact_over_both_bodies() {
         let flat = Lattice {
             size_mm: (0.5, 1.0),
             amplitude: 8,
+            amplitude_mm: 4.0,
             window: (4, 3),
             travel: 1.0,
         };
@@ -207,6 +283,7 @@ mod tests {
         let mut lattice = Lattice {
             size_mm: (0.5, 1.0),
             amplitude: 8,
+            amplitude_mm: 4.0,
             window: (5, 3),
             travel: 1.0,
         };

@@ -21,6 +21,8 @@ pub struct PointState {
     pub(super) neutral: ContactAtPosition,
     pub(super) turning: [ContactAtPosition; 2],
     pub(super) done: u64,
+    /// Imposed sliding distance, mm.
+    pub(super) sliding_distance_mm: f64,
     pub(super) computed: usize,
     /// Most contact solves of a cycle.
     pub(super) most_increments: usize,

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use super::error::PointError;
 use super::integrator::PointIntegrator;
+use super::motions::PointMotions;
 use super::record::{PointCycle, PointOutcome, PointSummary};
 use crate::closed_form::PointScene;
 use crate::sides::Sides;
@@ -16,7 +17,7 @@ pub fn run(
     scene: &PointScene,
     mut on_cycle: impl FnMut(&PointCycle) -> ControlFlow<()>,
 ) -> Result<PointSummary, PointError> {
-    let mut integrator = PointIntegrator::unloaded(scene)?;
+    let mut integrator = PointIntegrator::unloaded(&PointMotions::single(scene))?;
     let mut state = integrator.load()?;
     let initial = *state.last();
     let mut outcome = PointOutcome::Completed;

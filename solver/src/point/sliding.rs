@@ -62,6 +62,26 @@ impl Sliding {
         }
     }
 
+    /// Takes the motion of another block of a mission.
+    pub(super) fn take_motion(&mut self, scene: &PointScene) {
+        self.scene = *scene;
+    }
+
+    /// Slides to the neutral position without wear, where all of the contact has slipped in a direction, 1 or -1.
+    pub(super) fn slip_to_neutral(
+        &mut self,
+        state: &mut State,
+        direction: f64,
+    ) -> Result<(), PointError> {
+        let neutral = state.lattice.amplitude;
+        self.slide(state, neutral, 0.0, 0.0)?;
+        state.forget_shear();
+        let bounds = state.pressure.values.iter();
+        let shear = bounds.map(|pressure| direction * self.scene.friction * pressure);
+        state.shear.0.values = shear.collect();
+        Ok(())
+    }
+
     /// Loads the unworn contact where the first pass begins.
     pub(super) fn load(&mut self, state: &mut State) -> Result<(), PointError> {
         self.slide(state, state.position, 0.0, 0.0)?;
@@ -89,13 +109,14 @@ impl Sliding {
         Ok(state)
     }
 
-    /// The whole path of cycles in place, where the amplitude is not resolved.
+    /// The whole path of cycles in place at the neutral position, where the amplitude is not resolved.
     pub(super) fn wear_in_place(
         &mut self,
         state: &mut State,
         cycles: f64,
     ) -> Result<(), PointError> {
-        self.slide(state, 0, self.scene.path_mm(), cycles)
+        let neutral = state.lattice.amplitude;
+        self.slide(state, neutral, self.scene.path_mm(), cycles)
     }
 
     /// A part of a pass to a position over a length in mm, of a number of cycles.
@@ -146,7 +167,8 @@ impl Sliding {
         self.dose
             .extend(doses.map(|(pressure, slip)| cycles * pressure * slip));
         for side in Side::BOTH {
-            state.surfaces.of_mut(side).add(&self.dose);
+            let first_row = state.lattice.first_row(side, state.position);
+            state.surfaces.of_mut(side).add(&self.dose, first_row);
         }
         let cells = state.lattice.cells();
         state.sliding_work += cells.integral(&self.dose);

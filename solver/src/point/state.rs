@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::field::{Axis, Field};
 use super::lattice::Lattice;
 use super::surface::Surface;
-use crate::closed_form::PointScene;
+use crate::closed_form::{PointScene, SlipRegime};
 use crate::sides::{Side, Sides};
 
 /// State between increments.
@@ -38,8 +38,7 @@ pub(super) struct State {
 
 impl State {
     /// The unworn contact without load, where the first pass begins.
-    pub(super) fn unworn(scene: &PointScene) -> Self {
-        let lattice = Lattice::of(scene);
+    pub(super) fn unworn(scene: &PointScene, lattice: Lattice) -> Self {
         let window = || Field::zero(lattice.window());
         Self {
             lattice,
@@ -47,11 +46,7 @@ impl State {
                 Surface::new(scene.bodies.of(side).wear, lattice.half(side))
             }),
             pressure: window(),
-            position: if scene.amplitude_mm < 0.0 {
-                2 * lattice.amplitude
-            } else {
-                0
-            },
+            position: start(scene, &lattice),
             sliding_work: 0.0,
             section_work: 0.0,
             force_n: scene.force_n,
@@ -85,11 +80,26 @@ impl State {
         self.lattice = lattice;
     }
 
+    /// Forgets the tractions of a motion of which a part has stuck: all of the contact slips in the next one.
+    pub(super) fn forget_shear(&mut self) {
+        let zero = Field::zero(self.lattice.window());
+        self.shear = (zero.clone(), zero.clone());
+        self.slip = zero;
+    }
+
     /// Changes the fields of the window.
     fn change_window(&mut self, change: impl Fn(&Field) -> Field) {
         let (along, across) = &mut self.shear;
         for field in [&mut self.pressure, along, across, &mut self.slip] {
             *field = change(field);
         }
+    }
+}
+
+/// Position of the slider where the passes of a motion begin; the neutral one where surfaces wear in place.
+pub(super) fn start(scene: &PointScene, lattice: &Lattice) -> usize {
+    match scene.slip {
+        SlipRegime::Gross => lattice.position(-scene.amplitude_mm),
+        SlipRegime::Partial => lattice.amplitude,
     }
 }

@@ -8,6 +8,7 @@ use std::ops::Range;
 use serde::{Deserialize, Serialize};
 
 use super::field::{Axis, Field};
+use super::section::section;
 use crate::interpolation::part_way;
 use crate::law::surface::SurfaceWear;
 
@@ -93,6 +94,13 @@ impl Surface {
         doses.map(|dose| self.depth_mm(*dose)).collect()
     }
 
+    /// Depths along the middle section, mm.
+    pub(super) fn section_depths_mm(&self) -> impl Iterator<Item = f64> {
+        let depths = self.depths_mm();
+        let section: Vec<f64> = section(self.dose.width(), &depths).collect();
+        section.into_iter()
+    }
+
     /// Largest specific wear rate down to the deepest place, 1/MPa.
     pub(super) fn largest_rate(&self) -> f64 {
         let deepest = self
@@ -123,11 +131,29 @@ impl Surface {
         }
     }
 
-    /// Adds a dose at the cells of a window of the whole grid.
-    pub(super) fn add(&mut self, added: &[f64]) {
-        for (dose, added) in self.dose.values.iter_mut().zip(added) {
+    /// Adds a dose at the cells of the window that begins with a row.
+    pub(super) fn add(&mut self, added: &[f64], first_row: usize) {
+        let count = added.len() / self.dose.width();
+        let doses = self.dose.rows_mut(first_row, count).iter_mut();
+        for (dose, added) in doses.zip(added) {
             *dose += added;
         }
+    }
+
+    /// Takes out the dose per cycle of the last computed one, MPa mm.
+    pub(super) fn take_pace(&mut self) -> Field {
+        let none = Field::zero(self.pace.half());
+        std::mem::replace(&mut self.pace, none)
+    }
+
+    /// Takes a dose per cycle of an earlier one.
+    pub(super) fn set_pace(&mut self, pace: Field) {
+        self.pace = pace;
+    }
+
+    /// Rate at which the equivalent depth grows by the dose, 1/MPa.
+    pub(super) fn dose_rate(&self) -> f64 {
+        self.rate
     }
 
     /// Begins a computed cycle.

@@ -7,6 +7,8 @@ pub(super) mod plane;
 mod point;
 mod sections;
 
+use std::borrow::Cow;
+
 use crate::SolveError;
 use crate::change::Change;
 use crate::checkpoint::{Resumable, Run};
@@ -146,27 +148,19 @@ pub(super) trait Contact: Sized {
     }
 
     /// Moves the slider from the turning point of another motion to that of the present one, without wear.
-    fn change_motion(&mut self, _: &mut Self::State, _from: Motion) -> Result<(), SolveError> {
-        Ok(())
-    }
+    fn change_motion(&mut self, state: &mut Self::State, from: Motion) -> Result<(), SolveError>;
     /// Totals of the wear so far, for the blocks of a mission.
-    fn totals(&self, _: &Self::State) -> BlockWear {
-        BlockWear::default()
-    }
-    /// Worn depths of the nodes that the totals are given at, mm.
-    fn nodal_depths(_: &Self::State) -> Sides<&[f64]> {
-        Sides::default()
-    }
+    fn totals(&self, state: &Self::State) -> BlockWear;
+    /// Worn depths of the nodes that the totals are given at, mm, or values that grow with these.
+    fn nodal_depths<'a>(&self, state: &'a Self::State) -> Sides<Cow<'a, [f64]>>;
     /// Cycles in which a body would be worn through at these rates of the nodes, mm a cycle.
     fn cycles_left_at(&self, _: &Self::State, _rates: Sides<&[f64]>) -> f64 {
         f64::INFINITY
     }
     /// Takes out what belongs to the present motion.
-    fn take_history(_: &mut Self::State) -> Self::History {
-        Self::History::default()
-    }
+    fn take_history(state: &mut Self::State) -> Self::History;
     /// Continues with what cycles of the next motion have left.
-    fn continue_motion(_: &mut Self::State, _: Self::History) {}
+    fn continue_motion(state: &mut Self::State, history: Self::History);
 
     /// The contact as its resistance depends on it at a moment between two states.
     fn touching(

@@ -28,7 +28,9 @@ pub(super) fn summary<C: Contact>(
         crossings: run.crossings.clone(),
         life: run.life.clone(),
         blocks: run.mission.as_ref().map_or_else(Vec::new, |mission| {
-            mission.wear(&contact.totals(state), C::nodal_depths(state))
+            let depths = contact.nodal_depths(state);
+            let depths = depths.as_ref().map(|depths| &depths[..]);
+            mission.wear(&contact.totals(state), depths)
         }),
     }
 }

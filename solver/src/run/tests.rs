@@ -1,5 +1,7 @@
 //! A run that requires an effect which its plan has skipped.
 
+mod missions;
+
 use super::*;
 use crate::model::tests::fuzz_button;
 use crate::observer::{Event, Restart};

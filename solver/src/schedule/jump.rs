@@ -193,20 +193,14 @@ impl JumpControl {
     pub(crate) fn fastest_rate(&self) -> Sides<f64> {
         self.rate.largest_of_each()
     }
+}
 
-    /// Sum of estimated error times wear, and of wear.
-    pub(crate) fn weighted_error(&self) -> (f64, f64) {
-        (self.weighted_error, self.worn)
-    }
-
-    /// Estimated relative error of the worn depth so far.
-    pub(crate) fn mean_error(&self) -> f64 {
-        if self.worn > 0.0 {
-            self.weighted_error / self.worn
-        } else {
-            0.0
-        }
-    }
+/// Estimated relative error of the worn depth by the jumps of all controls so far, one for each motion of a run.
+pub(crate) fn mean_error<'a>(controls: impl Iterator<Item = &'a JumpControl>) -> f64 {
+    let (error, worn) = controls.fold((0.0, 0.0), |(error, worn), control| {
+        (error + control.weighted_error, worn + control.worn)
+    });
+    if worn > 0.0 { error / worn } else { 0.0 }
 }
 
 /// Divides the remaining cycles into equal jumps not larger than the target, so that none is tiny.

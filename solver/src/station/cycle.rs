@@ -21,7 +21,6 @@ pub(crate) struct LineContact {
     pub(super) scene: StationScene,
     /// The plane section under the mean line load.
     pub(super) plane: Scene,
-    pub(super) amplitude_mm: f64,
     pub(super) unworn: Arc<Section>,
     pub(super) carrier: Carrier,
     pub(super) stations: Vec<Station>,

@@ -56,7 +56,7 @@ impl LineIntegrator {
 impl LineContact {
     /// The unworn sections without load.
     fn unloaded(scene: &StationScene, plan: &EffectsPlan) -> Result<Self, StationError> {
-        let amplitude_mm = scene.check()?;
+        scene.check()?;
         let plane = scene.plane();
         let built = model::build(&plane, plan).map_err(SectionsError::from)?;
         scene.check_slip(&plane)?;
@@ -81,7 +81,6 @@ impl LineContact {
             common: CommonLineState::default(),
             scene: scene.clone(),
             plane,
-            amplitude_mm,
             unworn,
             threads: Arc::new(Threads::new(scene.section.threads.min(scene.stations))),
         })
@@ -165,8 +164,12 @@ impl SectionedContact for LineContact {
         loaded
     }
 
-    fn first_increments(&self) -> usize {
-        self.most_increments()
+    fn increments_of(&self, motion: Motion) -> usize {
+        self.most_increments(motion)
+    }
+
+    fn take_motion(&mut self, block: &Scene) {
+        self.plane.take_motion(block);
     }
 
     fn follow_wear(&mut self) -> Result<u64, StationError> {

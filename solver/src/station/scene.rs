@@ -172,11 +172,11 @@ impl StationScene {
         Ok(self.check_slip(&self.plane())?)
     }
 
-    /// Checks the scene; returns the amplitude of its motion, mm.
+    /// Checks the scene.
     ///
     /// # Errors
     /// A value outside of its range, a law or a motion that stations do not have.
-    pub(super) fn check(&self) -> Result<f64, StationError> {
+    pub(super) fn check(&self) -> Result<(), StationError> {
         let amplitude = check_section(&self.section)?;
         let size = match self.line {
             LineShape::Ring { radius_mm, .. } => radius_mm,
@@ -189,10 +189,10 @@ impl StationScene {
         positive(self.force_n, StationError::ForceRange)?;
         positive(size, StationError::LengthRange)?;
         if let LineShape::Ring { radius_mm, .. } = self.line
-            && amplitude.abs() >= radius_mm
+            && amplitude >= radius_mm
         {
             return Err(StationError::Amplitude {
-                amplitude_mm: amplitude.abs(),
+                amplitude_mm: amplitude,
                 radius_mm,
             });
         }
@@ -215,7 +215,7 @@ impl StationScene {
         if self.top != Top::Even && self.section.drive != Drive::Handle {
             return Err(StationError::Drive);
         }
-        Ok(amplitude)
+        Ok(())
     }
 
     /// Checks that all of the contact slips in each stroke.

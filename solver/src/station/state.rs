@@ -116,14 +116,4 @@ impl LineState {
         }
         work
     }
-
-    /// Estimated relative error of the worn depth by the jumps so far: that of the worst station.
-    pub(crate) fn mean_jump_error(&self) -> f64 {
-        let errors = self
-            .sections
-            .stations
-            .iter()
-            .map(|station| station.jump.mean_error());
-        errors.fold(0.0, f64::max)
-    }
 }

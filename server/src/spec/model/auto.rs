@@ -38,7 +38,7 @@ pub(super) fn choose(
     };
     let as_point = crown_radius_mm.map(|crown| {
         let mut of_candidate = Diagnostics::default();
-        point::with_dimension(whole.clone(), Some(crown), force_n, &mut of_candidate)
+        point::with_dimension(whole.clone(), Some(crown), force_n, spec, &mut of_candidate)
     });
     let choice = extent::choose(&plane, as_point.as_ref(), line.extent());
     let reason = words::extent::reason(choice);
@@ -63,7 +63,7 @@ pub(super) fn choose(
     let scene = match (dimension, crown_radius_mm) {
         (Dimension::Line, _) => line.with_dimension(section, is_force, spec, diagnostics),
         (Dimension::Point, Some(crown)) => {
-            point::with_dimension(whole, Some(crown), force_n, diagnostics)
+            point::with_dimension(whole, Some(crown), force_n, spec, diagnostics)
         }
         _ => plane,
     };
@@ -80,7 +80,8 @@ fn lacks(plane: &Scene, dimension: Dimension, spec: &Spec) -> Option<String> {
         return None;
     }
     let mut of_candidate = Diagnostics::default();
-    section_only::check(spec, dimension.as_str(), plane.motion, &mut of_candidate);
+    let (name, mission) = (dimension.as_str(), plane.mission.as_ref());
+    section_only::check(spec, name, plane.motion, mission, &mut of_candidate);
     section_only::check_laws(plane, "contact of finite width", &mut of_candidate);
     let fault = of_candidate.into_faults().into_iter().next()?;
     Some(format!("{}: {}", fault.pointer, fault.detail))

@@ -1,6 +1,6 @@
 //! Extruded bodies: their width, layers and ends, and what they need of the rest of a specification.
 
-use api::spec::{Ends, Model, SystemKind};
+use api::spec::{Ends, Model, Spec, SystemKind};
 use solver::extruded::{ExtrudedError, ExtrudedScene, MOST_LAYERS};
 use solver::scene::{self, Conduction, Extruded, Scene};
 use solver::sides::Sides;
@@ -86,6 +86,7 @@ pub(super) fn with_dimension(
     mut scene: Scene,
     extruded: Extruded,
     is_force: bool,
+    spec: &Spec,
     diagnostics: &mut Diagnostics,
 ) -> Scene {
     let width = extruded.width_mm;
@@ -98,13 +99,13 @@ pub(super) fn with_dimension(
     }
     scene.dimension = scene::Dimension::Extruded(extruded);
     if diagnostics.is_clean() {
-        check(&scene, diagnostics);
+        check(&scene, spec, diagnostics);
     }
     scene
 }
 
 /// Checks what extruded bodies cannot simulate.
-fn check(scene: &Scene, diagnostics: &mut Diagnostics) {
+fn check(scene: &Scene, spec: &Spec, diagnostics: &mut Diagnostics) {
     let Some(bodies) = ExtrudedScene::of(scene) else {
         return;
     };
@@ -112,7 +113,7 @@ fn check(scene: &Scene, diagnostics: &mut Diagnostics) {
         return;
     };
     let pointer = match &error {
-        ExtrudedError::Sections(error) => section_only::pointer(error),
+        ExtrudedError::Sections(error) => section_only::pointer(error, spec),
         // Others are ranges of fields of their own.
         ExtrudedError::UnlikeLayers { .. } => "/model/layer_growth",
         _ => "/model",

@@ -243,13 +243,13 @@ impl Line {
             stations: stations(spec, diagnostics),
         });
         if diagnostics.is_clean() {
-            Self::check(&scene, diagnostics);
+            Self::check(&scene, spec, diagnostics);
         }
         scene
     }
 
     /// Checks what sections along a line cannot simulate.
-    fn check(scene: &Scene, diagnostics: &mut Diagnostics) {
+    fn check(scene: &Scene, spec: &Spec, diagnostics: &mut Diagnostics) {
         let Some(line) = StationScene::of(scene) else {
             return;
         };
@@ -257,12 +257,13 @@ impl Line {
             return;
         };
         let pointer = match &error {
-            StationError::Sections(error) => section_only::pointer(error),
-            StationError::Amplitude { .. } => "/motion",
+            StationError::Sections(error) => section_only::pointer(error, spec),
+            StationError::Amplitude { .. } => section_only::movement(spec),
             // Others are ranges of fields of their own.
             StationError::BeyondAxis { .. } => "/model/outer_diameter_mm",
             StationError::Spacing { .. } => "/accuracy/overrides/stations",
-            StationError::Drive => "/motion/drive",
+            StationError::Drive if spec.mission.is_empty() => "/motion/drive",
+            StationError::Drive => "/mission",
             _ => "/model",
         };
         diagnostics.fault(pointer, errors::of_line(&error));

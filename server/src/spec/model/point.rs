@@ -8,6 +8,7 @@ use solver::closed_form::unworn_contact::hertz_half_width;
 use solver::scene::{self, Conduction, Point, Scene};
 use solver::sides::Sides;
 
+use super::section_only;
 use crate::spec::diagnostics::Diagnostics;
 
 /// Largest half-length of a contact over the height of a body that is taken as a half-space: its compliance is then a few per cent lower.
@@ -33,6 +34,7 @@ pub(super) fn with_dimension(
     mut scene: Scene,
     radius_across_mm: Option<f64>,
     force_n: f64,
+    spec: &Spec,
     diagnostics: &mut Diagnostics,
 ) -> Scene {
     scene.dimension = scene::Dimension::Point(Point {
@@ -45,7 +47,7 @@ pub(super) fn with_dimension(
     // Springs were resolved per unit of width.
     let spring_n_per_mm = scene.spring_n_per_mm2;
     scene.load_n_per_mm = closed_form::middle_line_load_n_per_mm(&scene);
-    check_size(&scene, diagnostics);
+    check_size(&scene, spec, diagnostics);
     scene.spring_n_per_mm2 = spring_n_per_mm * scene.load_n_per_mm / force_n;
     if let Conduction::Known(electrical) = &mut scene.conduction {
         electrical.width_mm = force_n / scene.load_n_per_mm;
@@ -54,7 +56,7 @@ pub(super) fn with_dimension(
 }
 
 /// Cells that resolve the contact, and a contact that stays on the receptacle.
-fn check_size(scene: &Scene, diagnostics: &mut Diagnostics) {
+fn check_size(scene: &Scene, spec: &Spec, diagnostics: &mut Diagnostics) {
     let half_length = hertz_half_width(scene);
     if let Some(cell) = scene.accuracy.contact_element_mm {
         let most = half_length / FEWEST_CELLS;
@@ -66,14 +68,14 @@ fn check_size(scene: &Scene, diagnostics: &mut Diagnostics) {
         }
     }
     let (amplitude, half_block) = (
-        scene.motion.amplitude_mm(),
+        scene.largest_amplitude_mm(),
         0.5 * scene.receptacle.shape.length_mm,
     );
     if amplitude + half_length > half_block {
         let detail = format!(
             "the contact of {half_length:.2e} mm leaves the receptacle, {half_block} mm to either side, by an amplitude of {amplitude} mm"
         );
-        diagnostics.fault("/motion", detail);
+        diagnostics.fault(section_only::movement(spec), detail);
     }
 }
 
@@ -82,7 +84,7 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Fault> {
     let half_length = worn_contact_half_length_mm(scene);
     let (slider, block) = (&scene.slider.shape, &scene.receptacle.shape);
     let height = slider.height_mm.min(block.height_mm);
-    let to_edge = 0.5 * block.length_mm - scene.motion.amplitude_mm() - half_length;
+    let to_edge = 0.5 * block.length_mm - scene.largest_amplitude_mm() - half_length;
     let mut warnings = Vec::new();
     if half_length > LARGEST_IN_HALF_SPACE * height {
         warnings.push(format!(

@@ -87,8 +87,9 @@ fn fields_that_mean_nothing_in_a_dimension_are_refused() {
         ),
         (r#","load":{"kind":"pressure","mpa":1}"#, "/load/kind"),
         (r#","output":{"fields":true}"#, "/output/fields"),
+        // A block that leaves the receptacle.
         (
-            r#","mission":[{"motion":{"kind":"reciprocating"},"cycles":1},{"motion":{"kind":"reciprocating","amplitude_mm":0.1},"cycles":1}]"#,
+            r#","mission":[{"motion":{"kind":"reciprocating"},"cycles":1000},{"motion":{"kind":"reciprocating","amplitude_mm":50},"cycles":1}]"#,
             "/mission",
         ),
         (
@@ -119,6 +120,43 @@ fn a_point_has_the_motions_of_a_section() {
     let rest = r#","interface":{"wear":{"slider":null}},"plating":{"slider":[]},"motion":{"kind":"continuous","distance_mm":10}"#;
     let continuous = accepted(&ball(rest)).scene;
     assert!(matches!(continuous.motion, Motion::Continuous { .. }));
+}
+
+#[test]
+fn missions_are_simulated_in_every_dimension() {
+    let mission = r#","mission":[{"motion":{"kind":"reciprocating","amplitude_mm":0.01},"cycles":30},{"motion":{"kind":"reciprocating","amplitude_mm":0.02},"cycles":10}],"repeat":5,"order":"mixed"}"#;
+    for (system, model) in [
+        ("sd_card", r#"{"dimension":"point"}"#),
+        ("sd_card", r#"{"dimension":"auto","radius_z_mm":0.5}"#),
+        ("sd_card", r#"{"dimension":"line","width_mm":0.8}"#),
+        (
+            "sd_card",
+            r#"{"dimension":"auto","width_mm":0.8,"crown_radius_mm":10}"#,
+        ),
+        ("fuzz_button", r#"{"dimension":"ring"}"#),
+        ("fuzz_button", r#"{"dimension":"extruded"}"#),
+    ] {
+        let text = format!(r#"{{"system":{{"kind":"{system}"}},"model":{model}{mission}"#);
+        let found = accepted(&text);
+        assert_ne!(found.scene.dimension, Dimension::PlaneStrain, "{text}");
+        let mission = found.scene.mission.expect("it has blocks");
+        assert_eq!((mission.blocks.len(), mission.repeat), (2, 5));
+    }
+}
+
+/// The rate of a law of speed differs from block to block, doses of which do not add.
+#[test]
+fn missions_of_points_have_one_rate() {
+    let law = r#","plating":{"slider":[]},"interface":{"wear":{"receptacle":null,"slider":{"law":"rhee","wear_factor":1e-9,"pressure_exponent":1,"speed_exponent":0.5,"time_exponent":1}}}"#;
+    let block = |amplitude: f64| {
+        format!(r#"{{"motion":{{"kind":"reciprocating","amplitude_mm":{amplitude}}},"cycles":9}}"#)
+    };
+    let mission = format!(r#","mission":[{},{}]"#, block(0.01), block(0.02));
+    let found = pointers(&ball(&format!("{law}{mission}")));
+    assert!(
+        found.contains(&"/interface/wear/slider/law".to_owned()),
+        "{found:?}"
+    );
 }
 
 #[test]

@@ -65,7 +65,8 @@ fn one_pass_of_a_sphere_leaves_the_track_of_its_line_loads() {
     let k = 1e-9;
     let mut scene = sphere_on_flat(sides(0.0, k), 0.8, 1);
     scene.accuracy.cells_per_half_length = 20.0;
-    let mut state = State::unworn(&scene);
+    let lattice = PointMotions::single(&scene).lattice();
+    let mut state = State::unworn(&scene, lattice);
     let mut sliding = Sliding::new(&scene, &state);
     sliding.load(&mut state).expect("it can be loaded");
     let n = state.lattice.amplitude;

@@ -7,13 +7,16 @@ use crate::checkpoint::{CheckpointMismatch, ExtrudedRun, Resumable};
 use crate::contact::Work;
 use crate::effects::EffectsPlan;
 use crate::extruded::{
-    ExtrudedContact, ExtrudedError, ExtrudedIntegrator, ExtrudedScene, ExtrudedState,
+    ExtrudedContact, ExtrudedError, ExtrudedHistory, ExtrudedIntegrator, ExtrudedScene,
+    ExtrudedState,
 };
 use crate::fields::{self, ExtrudedSections, LineFields};
 use crate::scene::Scene;
 use crate::sides::Sides;
 
 impl ReportedSections for ExtrudedContact {
+    type History = ExtrudedHistory;
+
     fn unworn(scene: &Scene, plan: &EffectsPlan) -> Result<ExtrudedIntegrator, SolveError> {
         Ok(ExtrudedIntegrator::unloaded(&bodies_of(scene)?, plan)?)
     }
@@ -59,6 +62,14 @@ impl ReportedSections for ExtrudedContact {
         integrator.size()
     }
 
+    fn take_history(state: &mut ExtrudedState) -> ExtrudedHistory {
+        state.take_motion_history()
+    }
+
+    fn continue_motion(state: &mut ExtrudedState, history: ExtrudedHistory) {
+        state.continue_motion(history);
+    }
+
     fn fastest_rate(state: &ExtrudedState) -> Sides<f64> {
         state.fastest_rate()
     }
@@ -67,8 +78,8 @@ impl ReportedSections for ExtrudedContact {
         state.work()
     }
 
-    fn mean_jump_error(state: &ExtrudedState) -> f64 {
-        state.mean_jump_error()
+    fn mean_jump_error(state: &ExtrudedState, histories: &[&ExtrudedHistory]) -> f64 {
+        state.mean_jump_error(histories)
     }
 
     fn resumable(run: &ExtrudedRun) -> Resumable<'_> {

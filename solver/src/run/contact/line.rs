@@ -9,9 +9,13 @@ use crate::effects::EffectsPlan;
 use crate::fields::{self, LineFields, SectionState};
 use crate::scene::Scene;
 use crate::sides::Sides;
-use crate::station::{LineContact, LineIntegrator, LineState, StationError, StationScene};
+use crate::station::{
+    LineContact, LineHistory, LineIntegrator, LineState, StationError, StationScene,
+};
 
 impl ReportedSections for LineContact {
+    type History = LineHistory;
+
     fn unworn(scene: &Scene, plan: &EffectsPlan) -> Result<LineIntegrator, SolveError> {
         Ok(LineIntegrator::unloaded(&line_of(scene)?, plan)?)
     }
@@ -62,6 +66,14 @@ impl ReportedSections for LineContact {
         integrator.size()
     }
 
+    fn take_history(state: &mut LineState) -> LineHistory {
+        state.take_motion_history()
+    }
+
+    fn continue_motion(state: &mut LineState, history: LineHistory) {
+        state.continue_motion(history);
+    }
+
     fn fastest_rate(state: &LineState) -> Sides<f64> {
         state.fastest_rate()
     }
@@ -70,8 +82,8 @@ impl ReportedSections for LineContact {
         state.work()
     }
 
-    fn mean_jump_error(state: &LineState) -> f64 {
-        state.mean_jump_error()
+    fn mean_jump_error(state: &LineState, histories: &[&LineHistory]) -> f64 {
+        state.mean_jump_error(histories)
     }
 
     fn resumable(run: &LineRun) -> Resumable<'_> {

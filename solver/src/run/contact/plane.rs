@@ -1,6 +1,8 @@
 //! The run of a plane section: its mesh follows the worn surfaces, and its operators are condensed again where the geometry has drifted or
 //! the contact has outgrown its zones.
 
+use std::borrow::Cow;
+
 use super::computed::Computed;
 use super::{Bodies, Contact, Moment};
 use crate::SolveError;
@@ -204,8 +206,8 @@ impl Contact for PlaneContact<'_> {
         BlockWear::total(&state.cycle_state, &self.plane.model.interface.wear)
     }
 
-    fn nodal_depths(state: &SectionState) -> Sides<&[f64]> {
-        state.cycle_state.depth.as_slices()
+    fn nodal_depths<'a>(&self, state: &'a SectionState) -> Sides<Cow<'a, [f64]>> {
+        state.cycle_state.depth.as_slices().map(Cow::Borrowed)
     }
 
     fn cycles_left_at(&self, state: &SectionState, rates: Sides<&[f64]>) -> f64 {

@@ -1,33 +1,39 @@
 //! The run of a point contact: what its reports and snapshots are made of. Profiles and tractions are those of its middle section; maps are
 //! of the whole contact.
 
+use std::borrow::Cow;
+
 use super::{Bodies, Contact, Moment, Worn};
 use crate::SolveError;
 use crate::change::Change;
 use crate::checkpoint::{PointRun, Resumable};
 use crate::closed_form::{PointScene, SlipRegime};
 use crate::contact::Work;
+use crate::cycle::BlockWear;
 use crate::effects::EffectsPlan;
 use crate::electrical::{AreaContact, ContactResistance, Evaluation, Touching};
 use crate::interpolation::part_way;
 use crate::number::count;
 use crate::observer::Observer;
-use crate::point::{ContactAtPosition, DepthMap, PointError, PointIntegrator, PointState, legs};
+use crate::point::{
+    ContactAtPosition, DepthMap, PointError, PointHistory, PointIntegrator, PointMotions,
+    PointState, legs,
+};
 use crate::record::{
     self, AreaMaps, Checks, CycleReport, DepthProfile, Exposed, FrictionLoop, PointEnd, Position,
     PressureMap, Resolution, Snapshot, TractionField, WornArea,
 };
-use crate::scene::Effect;
-use crate::scene::Scene;
+use crate::scene::{Effect, Motion, Scene};
 use crate::sides::{Side, Sides};
 
 impl Bodies for PointIntegrator {
     type State = PointState;
-    type History = ();
+    type History = PointHistory;
     type Contact<'a> = &'a mut Self;
 
     fn unworn(scene: &Scene, plan: &EffectsPlan, _: &mut dyn Observer) -> Result<Self, SolveError> {
-        Ok(Self::unloaded(&contact_of(scene, plan)?)?)
+        let contact = contact_of(scene, plan)?;
+        Ok(Self::unloaded(&PointMotions::of(&contact, scene))?)
     }
 
     fn resumed(
@@ -38,17 +44,18 @@ impl Bodies for PointIntegrator {
     ) -> Result<Self, SolveError> {
         let contact = contact_of(scene, plan)?;
         state.resume(&contact);
-        Ok(Self::resume(&contact, state))
+        Ok(Self::resume(&PointMotions::of(&contact, scene), state))
     }
 
-    fn contact<'a>(&'a mut self, _: &'a Scene) -> &'a mut Self {
+    fn contact<'a>(&'a mut self, block: &'a Scene) -> &'a mut Self {
+        self.take_motion(block);
         self
     }
 }
 
 impl Contact for &mut PointIntegrator {
     type State = PointState;
-    type History = ();
+    type History = PointHistory;
     type Worn = Worn<Sides<DepthMap>>;
 
     fn load(&mut self) -> Result<PointState, SolveError> {
@@ -75,6 +82,27 @@ impl Contact for &mut PointIntegrator {
 
     fn fastest_rate(state: &PointState) -> Sides<f64> {
         state.fastest_rate()
+    }
+
+    fn change_motion(&mut self, state: &mut PointState, from: Motion) -> Result<(), SolveError> {
+        Ok((**self).change_motion(state, from)?)
+    }
+
+    fn totals(&self, state: &PointState) -> BlockWear {
+        (**self).totals(state)
+    }
+
+    /// Doses.
+    fn nodal_depths<'a>(&self, state: &'a PointState) -> Sides<Cow<'a, [f64]>> {
+        self.doses(state).map(Cow::Owned)
+    }
+
+    fn take_history(state: &mut PointState) -> PointHistory {
+        state.take_motion_history()
+    }
+
+    fn continue_motion(state: &mut PointState, history: PointHistory) {
+        state.continue_motion(history);
     }
 
     /// At the cells of the contact after the cycles.

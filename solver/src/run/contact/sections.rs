@@ -1,6 +1,8 @@
 //! The run of sections along a line, stations or node planes: reports and snapshots are those of the reference section, and of each section
 //! besides.
 
+use std::borrow::Cow;
+
 use super::{Bodies, Contact, Moment, Worn};
 use crate::SolveError;
 use crate::along_line::{
@@ -9,6 +11,7 @@ use crate::along_line::{
 use crate::change::Change;
 use crate::checkpoint::{Resumable, Run};
 use crate::contact::Work;
+use crate::cycle::{BlockWear, MissionState};
 use crate::effects::EffectsPlan;
 use crate::electrical::{ContactResistance, Evaluation, Touching};
 use crate::fields::LineFields;
@@ -17,7 +20,7 @@ use crate::record::{
     self, Checks, CycleReport, DepthProfile, Exposed, LineEnd, Outcome, Resolution, Snapshot,
     StationSnapshot, TractionField, WornArea, tractions,
 };
-use crate::scene::Scene;
+use crate::scene::{Motion, Scene};
 use crate::sides::{Side, Sides};
 
 /// Parts of a run of sections along a line that stations and node planes have each in their own way.
@@ -47,22 +50,31 @@ pub(in crate::run) trait ReportedSections:
     /// Degrees of freedom, contact elements of the receptacle, and their size in mm.
     fn size(integrator: &SectionsIntegrator<Self>) -> (usize, usize, f64);
 
+    /// History that the cycles of a motion leave for later ones of the same motion.
+    type History: Default;
+
+    /// Takes out what belongs to the present motion.
+    fn take_history(state: &mut SectionsState<Self::State>) -> Self::History;
+    /// Continues with what cycles of the next motion have left.
+    fn continue_motion(state: &mut SectionsState<Self::State>, history: Self::History);
+
     /// Largest wear of a place of each side per cycle in the last computed one, mm.
     fn fastest_rate(state: &SectionsState<Self::State>) -> Sides<f64>;
     /// Work of all contact solves.
     fn work(state: &SectionsState<Self::State>) -> Work;
-    /// Estimated relative error of the worn depth by the jumps so far.
-    fn mean_jump_error(state: &SectionsState<Self::State>) -> f64;
+    /// Estimated relative error of the worn depth by the jumps so far, with those of the motions that are not under way.
+    fn mean_jump_error(state: &SectionsState<Self::State>, histories: &[&Self::History]) -> f64;
     /// The run as that of a checkpoint.
     fn resumable(run: &SectionsRun<Self>) -> Resumable<'_>;
 }
 
 /// A run of sections.
-type SectionsRun<S> = Run<SectionsState<<S as SectionedContact>::State>, ()>;
+type SectionsRun<S> =
+    Run<SectionsState<<S as SectionedContact>::State>, <S as ReportedSections>::History>;
 
 impl<S: ReportedSections> Bodies for SectionsIntegrator<S> {
     type State = SectionsState<S::State>;
-    type History = ();
+    type History = S::History;
     type Contact<'a>
         = &'a mut Self
     where
@@ -81,14 +93,15 @@ impl<S: ReportedSections> Bodies for SectionsIntegrator<S> {
         S::resume(scene, plan, state)
     }
 
-    fn contact<'a>(&'a mut self, _: &'a Scene) -> &'a mut Self {
+    fn contact<'a>(&'a mut self, block: &'a Scene) -> &'a mut Self {
+        self.contact.take_motion(block);
         self
     }
 }
 
 impl<S: ReportedSections> Contact for &mut SectionsIntegrator<S> {
     type State = SectionsState<S::State>;
-    type History = ();
+    type History = S::History;
     type Worn = Worn<Vec<StationProfile>>;
 
     fn load(&mut self) -> Result<SectionsState<S::State>, SolveError> {
@@ -129,6 +142,34 @@ impl<S: ReportedSections> Contact for &mut SectionsIntegrator<S> {
             Ending::WornThrough(_) => Outcome::WornThrough,
             Ending::DeeperThanRadius(_) => Outcome::DeeperThanRadius,
         })
+    }
+
+    fn change_motion(
+        &mut self,
+        state: &mut SectionsState<S::State>,
+        from: Motion,
+    ) -> Result<(), SolveError> {
+        (**self).change_motion(state, from).map_err(Into::into)
+    }
+
+    fn totals(&self, _: &SectionsState<S::State>) -> BlockWear {
+        (**self).totals()
+    }
+
+    fn nodal_depths<'a>(&self, _: &'a SectionsState<S::State>) -> Sides<Cow<'a, [f64]>> {
+        (**self).nodal_depths().map(Cow::Owned)
+    }
+
+    fn cycles_left_at(&self, _: &SectionsState<S::State>, rates: Sides<&[f64]>) -> f64 {
+        (**self).cycles_left_at(rates)
+    }
+
+    fn take_history(state: &mut SectionsState<S::State>) -> S::History {
+        S::take_history(state)
+    }
+
+    fn continue_motion(state: &mut SectionsState<S::State>, history: S::History) {
+        S::continue_motion(state, history);
     }
 
     /// Nothing conducts: the resistance of sections is not simulated.
@@ -200,6 +241,8 @@ impl<S: ReportedSections> Contact for &mut SectionsIntegrator<S> {
         let state = &run.state;
         let (dofs, contact_elements, contact_element_mm) = S::size(self);
         let (computed_cycles, most_increments) = state.computed();
+        let histories = run.mission.iter().flat_map(MissionState::histories);
+        let histories: Vec<&S::History> = histories.collect();
         Resolution {
             contact_element_mm,
             contact_elements,
@@ -208,7 +251,7 @@ impl<S: ReportedSections> Contact for &mut SectionsIntegrator<S> {
             work: S::work(state),
             dofs,
             relocations: state.relocations(),
-            estimated_relative_error: S::mean_jump_error(state),
+            estimated_relative_error: S::mean_jump_error(state, &histories),
         }
     }
 

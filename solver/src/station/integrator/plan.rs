@@ -15,13 +15,18 @@ const LEADING: f64 = 0.5;
 impl LineContact {
     /// A section, with its motion across the line.
     fn followed(&self, station: usize) -> FollowedSection<'_> {
+        self.followed_in(self.plane.motion, station)
+    }
+
+    /// A section in a motion of the slider.
+    fn followed_in(&self, motion: Motion, station: usize) -> FollowedSection<'_> {
         let station = &self.stations[station];
         let state = &station.state;
         FollowedSection {
             plane: &self.plane,
             motion: Motion::Reciprocating {
-                amplitude_mm: station.place.amplitude_mm(self.amplitude_mm.abs()),
-                period_s: self.plane.motion.period_s().unwrap_or(1.0),
+                amplitude_mm: station.place.amplitude_mm(motion.amplitude_mm().abs()),
+                period_s: motion.period_s().unwrap_or(1.0),
             },
             wear: self.unworn.model.interface.wear,
             depth: state.depth.largest_of_each(),
@@ -31,13 +36,13 @@ impl LineContact {
         }
     }
 
-    /// Increments of a cycle for the unworn contacts: those of the station that needs most.
-    pub(super) fn most_increments(&self) -> usize {
+    /// Increments of a cycle of a motion for the present contacts: those of the station that needs most.
+    pub(super) fn most_increments(&self, motion: Motion) -> usize {
         let stations = self.stations.iter().enumerate();
         let counts = stations.map(|(j, station)| {
             let half_width = station.state.mean_half_width;
             increments::count(
-                self.followed(j).motion,
+                self.followed_in(motion, j).motion,
                 &self.plane.accuracy,
                 half_width,
                 false,

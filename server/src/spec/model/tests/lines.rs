@@ -105,6 +105,15 @@ fn fields_that_mean_nothing_along_a_line_are_refused() {
             ring(r#","motion":{"kind":"continuous","distance_mm":10}"#),
             "/motion/kind",
         ),
+        // The blocks of a mission are those of a motion.
+        (
+            ring(r#","mission":[{"motion":{"kind":"reciprocating"},"cycles":9},{"motion":{"kind":"fourier","terms":[{"order":1,"sine_mm":0.02},{"order":3,"sine_mm":0.02}]},"cycles":9}]"#),
+            "/mission/1/motion/kind",
+        ),
+        (
+            ring(r#","mission":[{"motion":{"kind":"reciprocating"},"cycles":9},{"motion":{"kind":"reciprocating","amplitude_mm":1e-6},"cycles":9}]"#),
+            "/mission",
+        ),
         (ring(r#","effects":{"stick_memory":"on"}"#), "/effects/stick_memory"),
         (ring(r#","effects":{"resistance":"on"}"#), "/effects/resistance"),
         (
