@@ -50,6 +50,7 @@ pub use cycle_record::{CycleRecord, FrictionLoop, Neutral};
 pub(crate) use half_width::MeanHalfWidth;
 use heating::Heating;
 use implicit::ImplicitJumps;
+pub(crate) use implicit::are_possible as implicit_jumps_are_possible;
 pub use mission_state::BlockWear;
 pub(crate) use mission_state::MissionState;
 pub use motion_history::MotionHistory;

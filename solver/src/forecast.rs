@@ -16,6 +16,7 @@
 mod blocks;
 mod course;
 mod edges;
+mod implicit;
 mod line;
 mod point;
 mod surrogate;
@@ -33,6 +34,7 @@ use crate::sides::Sides;
 use blocks::{Block, WornBlocks};
 pub use course::Course;
 use edges::Edges;
+use implicit::ImplicitStep;
 pub use line::{LineForecast, line_forecast};
 pub use point::{PointForecast, point_forecast};
 use surrogate::Scar;
@@ -41,6 +43,9 @@ use surrogate::Scar;
 const MOST_SEGMENTS: usize = 5_000;
 /// With a fixed jump, one in so many of the computed cycles is forecast together with the next.
 const BATCHED_FROM: f64 = 100.0;
+/// Cycles times the tolerance that are computed one by one where a cycle reshapes the contact of two bodies that wear. Measured at 2 % on bare copper
+/// contacts: 110 to 130 cycles.
+const RESHAPED: f64 = 2.4;
 
 /// Increments of about one cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,6 +107,7 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
     let mut position = MissionPosition::first(scene);
     let (mut cycle, mut is_first) = (0, false);
     let mut edges = Edges::new(scene);
+    let are_implicit = implicit::of_blocks(scene);
     while !worn.is_done(scene, position.block, cycle) {
         if MOST_SEGMENTS <= run.segments.len() {
             run.extrapolate(cycle, expected_end(scene));
@@ -114,15 +120,30 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         }
         let now = worn.progress(position.block, cycle);
         let (until, is_reported) = position.next_reported(scene, stops::next(scene, now, depth));
-        let at_edge = edges.largest_jump(&scene.accuracy, cycle, |side| depth(side, 0.0));
+        let is_implicit = are_implicit[position.block];
+        let depths = |side| depth(side, 0.0);
+        let at_edge = edges.largest_jump(&scene.accuracy, cycle, is_implicit, depths);
         let Block { scar, jump, motion } = &mut worn.blocks[position.block];
         if is_first {
             scar.change_motion();
         }
         let (accuracy, stroke) = (&scene.accuracy, scar.stroke(scene, cycle));
-        let mut step = jump.next(accuracy, stroke, until - cycle);
+        let is_reshaped =
+            stroke.reshapes_both() && real_cycles(cycle) < RESHAPED / accuracy.tolerance;
+        let implicit = if is_implicit && !stroke.is_groove && !is_reshaped {
+            ImplicitStep::next(jump, scar, accuracy, stroke, until - cycle)
+        } else {
+            None
+        };
+        let mut step = match &implicit {
+            Some(implicit) => implicit.jump,
+            None => jump.next(accuracy, stroke, until - cycle),
+        };
         if accuracy.cycle_jump.is_none() {
             step = step.min(at_edge);
+            if is_reshaped {
+                step = 1;
+            }
         }
         if is_first && stroke.is_groove {
             // Nothing to extrapolate from.
@@ -148,7 +169,10 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
             before: before.as_slices(),
             after: scar.depth.as_slices(),
         };
-        jump.update(scar.widths(), 0.0, depth, done);
+        match implicit {
+            Some(implicit) => jump.update_implicit(implicit.wear(scar, &before, done), done),
+            None => jump.update(scar.widths(), 0.0, depth, done),
+        }
         cycle += done;
         run.computed_cycles += real_cycles(together);
         // A quarter of a cycle from the last motion to the neutral position, and another one from there.

@@ -34,7 +34,7 @@ use crate::contact::{ContactError, Thickness};
 use crate::law::surface::{self, SurfaceWear};
 use crate::model::Tangential;
 use crate::number::real_cycles;
-use crate::scene::Motion;
+use crate::scene::{Motion, Scene};
 use crate::schedule::attempts::{Attempts, longest_accepted_jump};
 use crate::schedule::increments;
 use crate::schedule::step::Step;
@@ -119,16 +119,8 @@ impl Integrator<'_> {
 
     /// The laws of a contact whose jumps are implicit.
     fn dose_laws(&self, stroke: Stroke) -> Option<DoseLaws> {
-        let (scene, interface) = (self.scene, &self.pair.interface);
-        let is_simple = scene.accuracy.tuning.implicit_jumps
-            && matches!(scene.motion, Motion::Reciprocating { .. })
-            && !scene.friction.changes()
-            && interface.tangential != Tangential::StickSlip
-            && scene.cycles_at_a_time.is_none()
-            && scene.accuracy.cycle_jump.is_none()
-            && self.heating.is_none();
-        let laws = DoseLaws::of(&self.wear)?;
-        (is_simple && !stroke.is_groove).then_some(laws)
+        let laws = laws_of_jumps(self.scene, self.pair.interface.tangential, &self.wear)?;
+        (self.heating.is_none() && !stroke.is_groove).then_some(laws)
     }
 
     /// Pressure skew of a single cycle by the wear that the contact as a whole has had in the last jump.
@@ -336,4 +328,25 @@ fn doses_of_one(
     contacts.place(bodies, positions.to_vec(), depth, starts)?;
     contacts.settle(bodies, depth)?;
     Ok(contacts.doses(bodies))
+}
+
+/// Returns `true` if the jumps of a motion may be implicit.
+pub(crate) fn are_possible(scene: &Scene, tangential: Tangential) -> bool {
+    laws_of_jumps(scene, tangential, &scene.surface_wear()).is_some()
+}
+
+/// The laws of a motion whose jumps may be implicit, on surfaces of this wear.
+fn laws_of_jumps(
+    scene: &Scene,
+    tangential: Tangential,
+    wear: &Sides<Option<SurfaceWear>>,
+) -> Option<DoseLaws> {
+    let accuracy = &scene.accuracy;
+    let is_simple = accuracy.tuning.implicit_jumps
+        && matches!(scene.motion, Motion::Reciprocating { .. })
+        && !scene.friction.changes()
+        && tangential != Tangential::StickSlip
+        && scene.cycles_at_a_time.is_none()
+        && accuracy.cycle_jump.is_none();
+    DoseLaws::of(wear).filter(|_| is_simple)
 }

@@ -149,7 +149,7 @@ fn forecast(
         );
         if scene.accuracy.cycle_jump.is_none() {
             let depth = |side| worn.deepest(side, 0.0);
-            jump = jump.min(edges.largest_jump(&scene.accuracy, cycle, depth));
+            jump = jump.min(edges.largest_jump(&scene.accuracy, cycle, false, depth));
         }
         let cycles = Cycles { done: cycle, jump };
         let increments = worn.increments(scene, position.block, cycles);

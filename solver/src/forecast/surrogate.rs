@@ -29,6 +29,7 @@ fn shape(x: f64, drawn: f64, flat: f64, reach: f64) -> f64 {
 }
 
 /// Surrogate for the worn surfaces, one half of the symmetric scar.
+#[derive(Clone)]
 pub(super) struct Scar {
     tuning: Tuning,
     /// True if part of the contact may stick through the whole stroke.
@@ -178,6 +179,22 @@ impl Scar {
         self.deepest.receptacle = self.shares.receptacle * self.depth_at(0.0, drawn);
         self.wear_slider();
         self.half_width = self.contact();
+    }
+
+    /// Wear of the next cycle, mm.
+    pub(super) fn of_cycle(&self) -> Sides<Vec<f64>> {
+        let mut next = self.clone();
+        next.wear(1);
+        next.mean_since(&self.depth, 1)
+    }
+
+    /// Mean wear of a cycle since earlier depths, mm.
+    pub(super) fn mean_since(&self, before: &Sides<Vec<f64>>, cycles: u64) -> Sides<Vec<f64>> {
+        Sides::from_fn(|side| {
+            let nodes = self.depth.of(side).iter().zip(before.of(side));
+            let worn = nodes.map(|(after, before)| (after - before) / real_cycles(cycles));
+            worn.collect()
+        })
     }
 
     /// Takes it that another motion has worn the surfaces.

@@ -19,6 +19,18 @@ pub enum Tangential {
     StickSlip,
 }
 
+impl Tangential {
+    /// That of the effects which a plan simulates.
+    pub(crate) fn of(plan: &EffectsPlan) -> Self {
+        let on = |effect| plan.simulates(effect);
+        match (on(Effect::Friction), on(Effect::StickMemory)) {
+            (true, true) => Self::StickSlip,
+            (true, false) => Self::ImposedSlip,
+            (false, _) => Self::Omitted,
+        }
+    }
+}
+
 /// Laws and load between the bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interface {
@@ -58,11 +70,7 @@ impl Interface {
     pub(super) fn of(scene: &Scene, plan: &EffectsPlan, sizes: &Sizes) -> Self {
         let surface = plan.surface_effects();
         let on = |effect| plan.simulates(effect);
-        let tangential = match (on(Effect::Friction), on(Effect::StickMemory)) {
-            (true, true) => Tangential::StickSlip,
-            (true, false) => Tangential::ImposedSlip,
-            (false, _) => Tangential::Omitted,
-        };
+        let tangential = Tangential::of(plan);
         let sticks = sizes.sticks && tangential == Tangential::StickSlip;
         Self {
             slave: sizes.slave,

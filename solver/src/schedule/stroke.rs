@@ -105,6 +105,11 @@ impl Stroke {
         Self { both: true, ..self }
     }
 
+    /// Returns `true` if one cycle reshapes the contact of two bodies that wear.
+    pub(crate) fn reshapes_both(self) -> bool {
+        self.both && self.skew > 1.0
+    }
+
     /// Limits jumps from a number of cycles on by the change of a coefficient of friction by cycle.
     pub(crate) fn limit_change_of_friction(&mut self, scene: &Scene, done: u64) {
         self.even_friction = even_friction(scene, done);
