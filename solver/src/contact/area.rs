@@ -12,6 +12,7 @@ mod kernel;
 mod normal;
 mod preconditioner;
 mod tangential;
+mod transform;
 
 pub use cells::Cells;
 pub use error::AreaError;

@@ -3,25 +3,16 @@
 //!   u_ij = sum over k, l of K(i - k, j - l) p_kl,  K(i, j) = K(-i, j) = K(i, -j) or -K(-i, j) = -K(i, -j).
 //!
 //! Padded to at least 2 n - 1 cells along either direction, the cyclic convolution of the transform is that of the infinite
-//! plane; without padding it is periodic. The spectrum of such a kernel is real. Only rows that hold cells are
-//! transformed along z, back and forth. All memory is allocated once.
-//!
-//! The transforms are those of `realfft` and `rustfft` without their SIMD features: on one thread, in an order of operations
-//! that depends on the size alone. With these features the planner would choose the instructions by the processor, and fused
-//! multiply-adds would change the last bits from machine to machine. The sine and cosine of the twiddle factors are those of
-//! the platform's library.
+//! plane; without padding it is periodic. The spectrum of such a kernel is real.
 
 use std::cmp::Ordering;
-use std::sync::Arc;
 
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
 use rustfft::num_traits::Zero;
 
 use super::cells::Cells;
+use super::transform::PlaneTransform;
 use crate::number::real;
-
-type Transform = Arc<dyn rustfft::Fft<f64>>;
 
 /// Symmetry of a kernel along both axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,31 +25,11 @@ pub(crate) enum Parity {
 
 /// A convolution with a kernel of one parity along both axes.
 pub(crate) struct Convolution {
-    /// Cells along x and z.
-    cells: (usize, usize),
-    /// The same with the padding.
-    padded: (usize, usize),
+    transform: PlaneTransform,
     /// Spectrum of the kernel over the number of padded cells, by the wave number along z and then along x.
     spectrum: Vec<f64>,
-    transforms: Transforms,
-    scratch: Scratch,
-}
-
-struct Transforms {
-    rows: Arc<dyn RealToComplex<f64>>,
-    rows_back: Arc<dyn ComplexToReal<f64>>,
-    columns: Transform,
-    columns_back: Transform,
-}
-
-struct Scratch {
-    /// A padded row along z, and its spectrum.
-    row: Vec<f64>,
-    row_spectrum: Vec<Complex<f64>>,
-    /// Spectra of all rows, transposed.
+    /// That of a field.
     columns: Vec<Complex<f64>>,
-    /// Of the transforms.
-    inner: Vec<Complex<f64>>,
 }
 
 impl Convolution {
@@ -69,8 +40,6 @@ impl Convolution {
             even_length(2 * cells.along_z),
         );
         let mut convolution = Self::with_length(cells, padded);
-        let wave_numbers = padded.1 / 2 + 1;
-        let mut columns = vec![Complex::zero(); wave_numbers * padded.0];
         let distance = |i: usize, n: usize| i.min(n - i);
         // The middle of the padding lies on both sides; no pair of cells is as far apart.
         let sign = |i: usize, n: usize| match (parity, (2 * i).cmp(&n)) {
@@ -78,23 +47,16 @@ impl Convolution {
             (Parity::Odd, Ordering::Equal) => 0.0,
             (Parity::Odd, Ordering::Greater) => -1.0,
         };
-        for i in 0..padded.0 {
-            for (j, value) in convolution.scratch.row.iter_mut().enumerate() {
-                let value_there = kernel(distance(i, padded.0), distance(j, padded.1));
-                *value = sign(i, padded.0) * sign(j, padded.1) * value_there;
-            }
-            convolution.transform_row();
-            let spectrum = &convolution.scratch.row_spectrum;
-            for (column, value) in columns.chunks_exact_mut(padded.0).zip(spectrum) {
-                column[i] = *value;
-            }
-        }
-        convolution
-            .transforms
-            .columns
-            .process_with_scratch(&mut columns, &mut convolution.scratch.inner);
+        let value = |i: usize, j: usize| {
+            let there = kernel(distance(i, padded.0), distance(j, padded.1));
+            sign(i, padded.0) * sign(j, padded.1) * there
+        };
+        let Self {
+            transform, columns, ..
+        } = &mut convolution;
+        transform.forward_rows(value, columns);
         let norm = 1.0 / (real(padded.0) * real(padded.1));
-        convolution.spectrum = columns.iter().map(|value| norm * value.re).collect();
+        convolution.spectrum = convolution.columns.iter().map(|v| norm * v.re).collect();
         convolution
     }
 
@@ -108,7 +70,7 @@ impl Convolution {
 
     /// Replaces the response of a periodic filter.
     pub(crate) fn set_response(&mut self, cells: &Cells, response: impl Fn(f64, f64) -> f64) {
-        let (nx, nz) = self.padded;
+        let (nx, nz) = self.transform.padded();
         let wave = |i: usize, n: usize, step: f64| {
             2.0 * std::f64::consts::PI * real(i.min(n - i)) / (real(n) * step)
         };
@@ -122,123 +84,21 @@ impl Convolution {
     }
 
     fn with_length(cells: &Cells, padded: (usize, usize)) -> Self {
-        let mut planner = RealFftPlanner::new();
-        let mut complex = rustfft::FftPlanner::new();
-        let transforms = Transforms {
-            rows: planner.plan_fft_forward(padded.1),
-            rows_back: planner.plan_fft_inverse(padded.1),
-            columns: complex.plan_fft_forward(padded.0),
-            columns_back: complex.plan_fft_inverse(padded.0),
-        };
-        let inner = transforms.scratch_length();
-        let wave_numbers = padded.1 / 2 + 1;
+        let transform = PlaneTransform::new(cells, padded);
         Self {
-            cells: (cells.along_x, cells.along_z),
-            padded,
+            columns: vec![Complex::zero(); transform.length()],
             spectrum: Vec::new(),
-            transforms,
-            scratch: Scratch {
-                row: vec![0.0; padded.1],
-                row_spectrum: vec![Complex::zero(); wave_numbers],
-                columns: vec![Complex::zero(); wave_numbers * padded.0],
-                inner: vec![Complex::zero(); inner],
-            },
+            transform,
         }
     }
 
     /// Writes the convolution of a field into another one; both have a value for each cell.
     pub(crate) fn apply(&mut self, field: &[f64], out: &mut [f64]) {
-        let ((_, nz), (length, _)) = (self.cells, self.padded);
-        self.scratch.columns.fill(Complex::zero());
-        for (i, values) in field.chunks_exact(nz).enumerate() {
-            // A row without pressure has no spectrum.
-            if values.iter().all(|value| *value == 0.0) {
-                continue;
-            }
-            self.scratch.row[..nz].copy_from_slice(values);
-            self.scratch.row[nz..].fill(0.0);
-            self.transform_row();
-            let Scratch {
-                columns,
-                row_spectrum,
-                ..
-            } = &mut self.scratch;
-            for (column, value) in columns.chunks_exact_mut(length).zip(row_spectrum) {
-                column[i] = *value;
-            }
-        }
-        self.filter();
-        for (i, values) in out.chunks_exact_mut(nz).enumerate() {
-            self.transform_back(i);
-            values.copy_from_slice(&self.scratch.row[..nz]);
-        }
-    }
-
-    /// Multiplies the spectra of the rows with that of the kernel.
-    fn filter(&mut self) {
-        let Scratch { columns, inner, .. } = &mut self.scratch;
-        self.transforms.columns.process_with_scratch(columns, inner);
-        for (value, factor) in columns.iter_mut().zip(&self.spectrum) {
+        self.transform.forward(field, &mut self.columns);
+        for (value, factor) in self.columns.iter_mut().zip(&self.spectrum) {
             *value *= *factor;
         }
-        self.transforms
-            .columns_back
-            .process_with_scratch(columns, inner);
-    }
-
-    /// Transforms the row in the scratch into its spectrum, and destroys it.
-    fn transform_row(&mut self) {
-        let Scratch {
-            row,
-            row_spectrum,
-            inner,
-            ..
-        } = &mut self.scratch;
-        let result = self
-            .transforms
-            .rows
-            .process_with_scratch(row, row_spectrum, inner);
-        debug_assert!(result.is_ok(), "rows have the planned length");
-    }
-
-    /// Transforms the spectra at a row back.
-    fn transform_back(&mut self, i: usize) {
-        let Scratch {
-            row,
-            row_spectrum,
-            columns,
-            inner,
-        } = &mut self.scratch;
-        for (value, column) in row_spectrum
-            .iter_mut()
-            .zip(columns.chunks_exact(self.padded.0))
-        {
-            *value = column[i];
-        }
-        // The spectrum of a real row is real up to round-off at both ends.
-        row_spectrum[0].im = 0.0;
-        if self.padded.1.is_multiple_of(2)
-            && let Some(last) = row_spectrum.last_mut()
-        {
-            last.im = 0.0;
-        }
-        let result = self
-            .transforms
-            .rows_back
-            .process_with_scratch(row_spectrum, row, inner);
-        debug_assert!(result.is_ok(), "rows have the planned length");
-    }
-}
-
-impl Transforms {
-    fn scratch_length(&self) -> usize {
-        let lengths = [
-            self.rows.get_scratch_len(),
-            self.rows_back.get_scratch_len(),
-            self.columns.get_inplace_scratch_len(),
-            self.columns_back.get_inplace_scratch_len(),
-        ];
-        lengths.into_iter().fold(0, usize::max)
+        self.transform.back(&mut self.columns, out);
     }
 }
 
