@@ -204,7 +204,7 @@ pub(crate) fn mean_error<'a>(controls: impl Iterator<Item = &'a JumpControl>) ->
 }
 
 /// Divides the remaining cycles into equal jumps not larger than the target, so that none is tiny.
-fn even_share(target: f64, remaining: u64) -> u64 {
+pub(crate) fn even_share(target: f64, remaining: u64) -> u64 {
     let pieces = crate::number::count_at_least(real_cycles(remaining) / target);
     let share = real_cycles(remaining) / real(pieces);
     u64::try_from(crate::number::count_at_least(share))

@@ -7,7 +7,7 @@
 use super::dose_laws::DoseLaws;
 use crate::linear::vector::dot;
 use crate::schedule::jump::Formula;
-use crate::schedule::jump::implicit::LastJump;
+use crate::schedule::jump::implicit::{LastJump, two_steps};
 use crate::sides::{Side, Sides};
 
 /// A jump from these surfaces.
@@ -40,16 +40,15 @@ impl Formulas {
     /// The formula of two steps, or Euler's without a jump before.
     pub(super) fn new(from: JumpFrom<'_>) -> Self {
         let (dose, cycles) = (from.dose, from.cycles);
+        let (formula, weight) = two_steps(from.last.map(|last| last.cycles), cycles);
         let Some(last) = from.last else {
             return Self {
-                formula: Formula::ImplicitEuler,
+                formula,
                 known: dose.clone(),
                 cycles: Sides::from_fn(|_| cycles),
             };
         };
-        let ratio = cycles / last.cycles;
-        let weight = (1.0 + ratio) / (1.0 + 2.0 * ratio);
-        let share = ratio * (1.0 - weight);
+        let share = cycles / last.cycles * (1.0 - weight);
         let known = Sides::from_fn(|side| from.known(side, last, share));
         let on_last = Sides::from_fn(|side| {
             let work = |doses: &[f64]| dot(doses, from.widths.of(side));
@@ -62,7 +61,7 @@ impl Formulas {
             }
         });
         Self {
-            formula: Formula::TwoSteps,
+            formula,
             known,
             cycles: on_last,
         }

@@ -66,20 +66,13 @@ impl JumpControl {
         if self.base <= 0.0 || self.error <= 0.0 {
             return 1;
         }
-        let finer = accuracy.refinement.cycles;
-        let (least, most) = accuracy.tuning.jump_change;
-        let order = match self.formula {
-            Formula::ComputedCycle | Formula::ImplicitEuler => 1.0,
-            Formula::TwoSteps => 2.0,
+        let last = Earlier {
+            cycles: self.base,
+            unshortened: self.unshortened,
+            error: self.error,
+            formula: self.formula,
         };
-        let longer = (allowed(accuracy, stroke) / self.error).powf(1.0 / order);
-        let longest = most.powf(1.0 / finer) * self.base.max(self.unshortened);
-        let target = (self.base * longer).clamp(least * self.base, longest);
-        let done = real_cycles(self.done);
-        let target = target.max(LEAST * LEAST_OF_DONE * accuracy.tolerance * done / finer);
-        let target = target
-            .min(accuracy.tuning.jump_of_done * done / finer)
-            .max(1.0);
+        let target = bounds(accuracy, stroke).target(last, self.done);
         self.unshortened = target;
         even_share(target, remaining.max(1))
     }
@@ -122,15 +115,83 @@ impl JumpControl {
         stroke: Stroke,
         jump: u64,
     ) -> Option<u64> {
-        let is_rejected = self.error > REJECTED * allowed(accuracy, stroke);
-        let is_long = real_cycles(jump) > SHORTEST_REJECTED * real_cycles(self.done);
+        bounds(accuracy, stroke).rejected(self.error, jump, self.done)
+    }
+}
+
+/// Bounds of the jumps of a stroke.
+fn bounds(accuracy: &Accuracy, stroke: Stroke) -> ImplicitBounds {
+    let finer = accuracy.refinement.cycles;
+    let (least, most) = accuracy.tuning.jump_change;
+    ImplicitBounds {
+        allowed: ALLOWED * stroke.largest_error(accuracy) / finer,
+        least: LEAST * LEAST_OF_DONE * accuracy.tolerance,
+        most: accuracy.tuning.jump_of_done,
+        finer,
+        change: (least, most.powf(1.0 / finer)),
+    }
+}
+
+/// Bounds of implicit jumps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ImplicitBounds {
+    /// Largest estimated error.
+    pub(crate) allowed: f64,
+    /// Least and largest jump over the cycles done, times the factor on the number of jumps.
+    pub(crate) least: f64,
+    pub(crate) most: f64,
+    /// That factor.
+    pub(crate) finer: f64,
+    /// Least and largest jump over the one before.
+    pub(crate) change: (f64, f64),
+}
+
+/// The jump before another one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Earlier {
+    pub(crate) cycles: f64,
+    /// Cycles before it was shortened.
+    pub(crate) unshortened: f64,
+    /// Estimated error.
+    pub(crate) error: f64,
+    pub(crate) formula: Formula,
+}
+
+impl ImplicitBounds {
+    /// Cycles of the next jump after so many.
+    pub(crate) fn target(&self, last: Earlier, done: u64) -> f64 {
+        let order = match last.formula {
+            Formula::ComputedCycle | Formula::ImplicitEuler => 1.0,
+            Formula::TwoSteps => 2.0,
+        };
+        let (least, most) = self.change;
+        let longer = (self.allowed / last.error).powf(1.0 / order);
+        let longest = most * last.cycles.max(last.unshortened);
+        let target = (last.cycles * longer).clamp(least * last.cycles, longest);
+        let done = real_cycles(done);
+        target
+            .max(self.least * done / self.finer)
+            .min(self.most * done / self.finer)
+            .max(1.0)
+    }
+
+    /// A smaller jump after so many cycles in place of one whose error is too large; `None` if it is accepted.
+    pub(crate) fn rejected(&self, error: f64, jump: u64, done: u64) -> Option<u64> {
+        let is_rejected = error > REJECTED * self.allowed;
+        let is_long = real_cycles(jump) > SHORTEST_REJECTED * real_cycles(done);
         (is_rejected && is_long && jump > 1).then(|| jump.div_ceil(super::CUT))
     }
 }
 
-/// Largest estimated error of an implicit jump.
-fn allowed(accuracy: &Accuracy, stroke: Stroke) -> f64 {
-    ALLOWED * stroke.largest_error(accuracy) / accuracy.refinement.cycles
+/// The formula of a jump of a number of cycles after an implicit one, and the weight b of the doses at its end.
+pub(crate) fn two_steps(last: Option<f64>, cycles: f64) -> (Formula, f64) {
+    match last.filter(|last| cycles <= MOST_RATIO * last) {
+        None => (Formula::ImplicitEuler, 1.0),
+        Some(last) => {
+            let ratio = cycles / last;
+            (Formula::TwoSteps, (1.0 + ratio) / (1.0 + 2.0 * ratio))
+        }
+    }
 }
 
 impl LastJump<'_> {
