@@ -15,6 +15,7 @@ mod check;
 mod contact_at_position;
 mod error;
 mod field;
+mod implicit;
 mod integrator;
 mod jump;
 mod lattice;

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 /// Format number, raised whenever the fields of a checkpoint or the results computed from them change: runs do not
 /// resume from an older format.
-const FORMAT: u32 = 32;
+const FORMAT: u32 = 33;
 
 /// The state of a run between two cycles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -98,6 +98,8 @@ pub struct PointAccuracy {
     pub cycle_jump: Option<u64>,
     /// Factor on the number of computed cycles: jumps, and what bounds them, are divided by it.
     pub cycles_refinement: f64,
+    /// True if jumps are implicit in the worn shapes where they can be and where that saves work (`Tuning::implicit_jumps_of_points`).
+    pub implicit_jumps: bool,
 }
 
 /// Line load of the middle section of the unworn point contact of a scene, N/mm: pi/2 p0 a = 3 F/(4 b), 0 for another scene.
@@ -119,6 +121,7 @@ impl PointAccuracy {
             step_over_half_length: 0.25 * finer.powf(-0.2),
             cycle_jump: None,
             cycles_refinement: 1.0,
+            implicit_jumps: false,
         }
     }
 }
@@ -155,6 +158,7 @@ impl PointAccuracy {
             step_over_half_length: step / refinement.increments,
             cycle_jump: accuracy.cycle_jump,
             cycles_refinement: refinement.cycles,
+            implicit_jumps: accuracy.tuning.implicit_jumps_of_points,
             ..chosen
         }
     }

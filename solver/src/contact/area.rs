@@ -15,9 +15,11 @@ mod tangential;
 mod transform;
 
 pub use cells::Cells;
+pub(crate) use convolution::{Convolution, Parity};
 pub use error::AreaError;
-pub(crate) use kernel::ShearCompliance;
+pub(crate) use kernel::{ShearCompliance, normal_influence};
 pub use normal::{NormalContact, NormalProblem, NormalSolution};
 pub(crate) use tangential::SHEAR_TOLERANCE;
 pub(crate) use tangential::TangentialContact;
 pub use tangential::{Shear, Slip, TangentialError};
+pub(crate) use transform::PlaneTransform;

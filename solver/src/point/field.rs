@@ -36,6 +36,12 @@ impl Field {
         self.half
     }
 
+    /// Of these values.
+    pub(super) fn of(half: (usize, usize), values: Vec<f64>) -> Self {
+        debug_assert!(values.len() == 4 * half.0 * half.1, "each cell has a value");
+        Self { half, values }
+    }
+
     /// Cells across.
     pub(super) fn width(&self) -> usize {
         2 * self.half.1

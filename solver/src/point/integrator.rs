@@ -2,6 +2,7 @@
 
 use super::contact_at_position::ContactAtPosition;
 use super::error::PointError;
+use super::implicit::CyclePressures;
 use super::jump::{JumpControl, jump_error, rejected, share_in_wear};
 use super::lattice::Lattice;
 use super::legs::legs;
@@ -32,6 +33,10 @@ pub(crate) struct PointIntegrator {
     pub(super) sliding: Sliding,
     /// Grids of the unworn contact.
     pub(super) unworn: Lattice,
+    /// True for a mission.
+    pub(super) is_mission: bool,
+    /// Contacts of implicit jumps.
+    pub(super) pressures: Option<CyclePressures>,
 }
 
 impl PointIntegrator {
@@ -48,6 +53,8 @@ impl PointIntegrator {
             slip: motions.slip,
             scene,
             unworn,
+            is_mission: motions.is_mission,
+            pressures: None,
         })
     }
 
@@ -91,6 +98,8 @@ impl PointIntegrator {
             slip: motions.slip,
             scene,
             unworn: motions.lattice(),
+            is_mission: motions.is_mission,
+            pressures: None,
         }
     }
 
@@ -109,8 +118,12 @@ impl PointIntegrator {
             window::coarsen(&mut state.sliding, cells);
             state.sliding.position = start(&self.scene, &state.sliding.lattice);
         }
-        let work = state.sliding.work;
         let remaining = until.max(state.done + 1) - state.done;
+        if let Some(cycle) = self.implicit_jump(state, remaining)? {
+            return Ok(cycle);
+        }
+        let work = state.sliding.work;
+        state.sliding.passing.clear();
         let mut attempts = PointAttempts {
             integrator: self,
             state,
@@ -119,13 +132,24 @@ impl PointIntegrator {
         let first = attempts.next_jump();
         let (jump, error) = longest_accepted_jump(&mut attempts, first)?;
         state.control.update(jump, error);
+        Ok(self.end_cycle(state, jump, error, work))
+    }
+
+    /// Ends the computed cycle or the implicit jump of a number of cycles and an error, after earlier work.
+    pub(super) fn end_cycle(
+        &self,
+        state: &mut PointState,
+        jump: u64,
+        error: f64,
+        work: (usize, usize),
+    ) -> PointCycle {
         state.done += jump;
         state.sliding_distance_mm += self.scene.path_mm() * real_cycles(jump);
         state.error_sum += real_cycles(jump) * error;
         state.computed += 1;
         state.last = self.report(state, jump, error, work);
         state.most_increments = state.most_increments.max(state.last.increments);
-        Ok(state.last)
+        state.last
     }
 
     /// The passes of a computed cycle of a jump; returns the estimated error of its wear.
@@ -197,7 +221,7 @@ impl PointIntegrator {
     }
 
     /// Leading-edge step over the indentation that a cycle leaves.
-    fn step(&self, state: &PointState) -> f64 {
+    pub(super) fn step(&self, state: &PointState) -> f64 {
         let lattice = &state.sliding.lattice;
         if lattice.is_in_place(self.scene.amplitude_mm) {
             return 0.0;

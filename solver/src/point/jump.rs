@@ -18,7 +18,8 @@ use serde::{Deserialize, Serialize};
 use super::surface::WearSums;
 use crate::closed_form::PointAccuracy;
 use crate::number::{cycles_at_least, real_cycles};
-use crate::schedule::jump::CUT;
+use crate::schedule::jump::implicit::{Earlier, ImplicitBounds};
+use crate::schedule::jump::{CUT, Formula, even_share};
 
 /// Largest step over indentation of a jump from a tolerance of 2 % on; below, it falls with the root of the tolerance. A sphere on a flat
 /// that alone wears by 2.6 um in 20 000 cycles of 0.3 of the unworn half-length, against jumps of a tenth of the tolerance: with 0.4 and
@@ -29,6 +30,15 @@ const AT_TOLERANCE: f64 = 0.02;
 /// Estimated error of a jump over the tolerance: the volume is exact, and the depth of a scar follows from it. At 2 % depths were at most
 /// 0.6 % off those of jumps by a fifth of the tolerance or less, where both bodies wear, and 0.1 % where one does.
 const ALLOWED_ERROR: f64 = 2.0;
+
+/// Estimated error of an implicit jump over the tolerance. A ball of 0.4 mm with gold over nickel on both sides at 2 %, with 0.5 and 2 beside
+/// the least jumps of 0.25: gold lives 4 515 and 4 506 cycles, nickel 15 303 and 15 302, by 400 and 233 attempts; finer jumps and positions
+/// give 4 517 and 15 310.
+const IMPLICIT_ERROR: f64 = 2.0;
+
+/// Least implicit jump over the cycles done and the tolerance: cells that pass an interface leave an error of their own in jumps of any
+/// length. With 0.25, 1 and 2 the nickel of that ball lives 15 302, 15 300 and 15 295 cycles.
+const LEAST_IMPLICIT: f64 = 2.0;
 
 /// Change of a jump from one computed cycle to the next. Arbitrary.
 const MOST_GROWTH: f64 = 2.0;
@@ -46,6 +56,9 @@ pub(crate) struct JumpControl {
     last: f64,
     error: f64,
     most: u64,
+    /// That before it was shortened.
+    unshortened: f64,
+    formula: Formula,
 }
 
 impl JumpControl {
@@ -90,7 +103,48 @@ impl JumpControl {
             last: real_cycles(jump),
             error: error.max(SMALLEST_ERROR),
             most: 0,
+            unshortened: 0.0,
+            formula: Formula::ComputedCycle,
         };
+    }
+
+    /// Takes the jump and the error of an implicit jump.
+    pub(super) fn update_implicit(&mut self, jump: u64, error: f64, formula: Formula) {
+        self.last = real_cycles(jump);
+        self.error = error.max(SMALLEST_ERROR);
+        self.most = self.most.saturating_mul(2);
+        self.formula = formula;
+    }
+
+    /// The next implicit jump.
+    pub(super) fn next_implicit(
+        &mut self,
+        accuracy: &PointAccuracy,
+        done: u64,
+        remaining: u64,
+    ) -> u64 {
+        if self.last <= 0.0 || self.error <= 0.0 {
+            return 1;
+        }
+        let last = Earlier {
+            cycles: self.last,
+            unshortened: self.unshortened,
+            error: self.error,
+            formula: self.formula,
+        };
+        let target = implicit_bounds(accuracy).target(last, done);
+        self.unshortened = target;
+        let jump = even_share(target, remaining.max(1));
+        if self.most > 0 {
+            jump.min(self.most)
+        } else {
+            jump
+        }
+    }
+
+    /// Cycles of the last jump, if it was implicit.
+    pub(super) fn last_implicit(&self) -> Option<f64> {
+        (self.formula != Formula::ComputedCycle).then_some(self.last)
     }
 }
 
@@ -118,8 +172,30 @@ pub(super) fn rejected(accuracy: &PointAccuracy, done: u64, jump: u64, error: f6
     (is_large && jump > 1 && accuracy.cycle_jump.is_none()).then(|| jump.div_ceil(CUT))
 }
 
+/// The jump to repeat an implicit one with, if its error is too large.
+pub(super) fn rejected_implicit(
+    accuracy: &PointAccuracy,
+    done: u64,
+    jump: u64,
+    error: f64,
+) -> Option<u64> {
+    implicit_bounds(accuracy).rejected(error, jump, done)
+}
+
 fn allowed_error(accuracy: &PointAccuracy) -> f64 {
     ALLOWED_ERROR * accuracy.tolerance / accuracy.cycles_refinement
+}
+
+/// Bounds of implicit jumps.
+fn implicit_bounds(accuracy: &PointAccuracy) -> ImplicitBounds {
+    let (finer, tolerance) = (accuracy.cycles_refinement, accuracy.tolerance);
+    ImplicitBounds {
+        allowed: IMPLICIT_ERROR * tolerance / finer,
+        least: LEAST_IMPLICIT * tolerance,
+        most: 1.0,
+        finer,
+        change: (LEAST_GROWTH, MOST_GROWTH.powf(1.0 / finer)),
+    }
 }
 
 fn largest_step(tolerance: f64) -> f64 {

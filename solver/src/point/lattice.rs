@@ -12,10 +12,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::field::Axis;
-use crate::closed_form::PointScene;
+use crate::closed_form::{PointBody, PointScene};
 use crate::contact::area::Cells;
 use crate::number::{count_at_least, nearest, real};
-use crate::sides::Side;
+use crate::sides::{Side, Sides};
 
 /// Half-length of the window over that of the unworn contact. Arbitrary: windows widen.
 const MARGIN: f64 = 1.4;
@@ -150,6 +150,20 @@ impl Lattice {
             Side::Receptacle => self.amplitude,
         };
         self.size_mm.0 * (real(self.first_row(side, position)) - real(middle))
+    }
+
+    /// Gap of the unworn shapes at the cells of the window for a position of the slider, mm.
+    pub(super) fn unworn_gap_mm(&self, scene: &PointScene, position: usize) -> Vec<f64> {
+        let curvatures = scene.bodies.as_ref().map(PointBody::curvature);
+        let offsets = Sides::from_fn(|side| self.offset_mm(side, position));
+        self.cells().map(|x, z| {
+            let height = |side| {
+                let (along, across) = *curvatures.of(side);
+                let x = x + offsets.of(side);
+                0.5 * (along * x * x + across * z * z)
+            };
+            height(Side::Slider) + height(Side::Receptacle)
+        })
     }
 
     /// Wider grids along the axes where the contact reaches the edge of the window.

@@ -37,6 +37,7 @@ impl PointIntegrator {
         let from = self.scene.in_motion(from, self.slip);
         let (scene, sliding) = (&self.scene, &mut self.sliding);
         let (moved, done) = (&mut state.sliding, state.done);
+        moved.passing.clear();
         let start_mm = -scene.amplitude_mm;
         let changed = match (from.slip, scene.slip) {
             (_, SlipRegime::Gross) => {

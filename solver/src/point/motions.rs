@@ -12,6 +12,8 @@ pub(crate) struct PointMotions {
     blocks: Vec<PointScene>,
     /// Slip where the amplitude is small against the contact.
     pub(super) slip: SlipRegime,
+    /// True for a mission, also of one block.
+    pub(super) is_mission: bool,
 }
 
 impl PointMotions {
@@ -20,6 +22,7 @@ impl PointMotions {
         Self {
             slip: scene.slip,
             blocks: vec![*scene],
+            is_mission: false,
         }
     }
 
@@ -30,6 +33,7 @@ impl PointMotions {
         Self {
             blocks: blocks.map(|block| contact.in_block(&block, slip)).collect(),
             slip,
+            is_mission: scene.mission.is_some(),
         }
     }
 

@@ -19,7 +19,7 @@ use super::window::widen;
 use crate::closed_form::PointScene;
 use crate::contact::area::{AreaError, NormalContact, NormalProblem};
 use crate::number::{nearest, real};
-use crate::sides::{Side, Sides};
+use crate::sides::Side;
 
 /// Most solves of an increment through layers, and change of the pressure over its sum at which they end.
 const MOST_REPETITIONS: usize = 12;
@@ -263,25 +263,17 @@ impl Sliding {
         Ok(())
     }
 
+    /// Solves for the contact at a position of the slider without wear.
+    pub(super) fn settle(&mut self, state: &mut State, position: usize) -> Result<(), PointError> {
+        self.slide(state, position, 0.0, 0.0)
+    }
+
     /// Gap of the undeformed surfaces at a position of the slider.
     fn update_gap(&mut self, state: &State, position: usize) {
+        self.gap = state.lattice.unworn_gap_mm(&self.scene, position);
         let State {
             lattice, surfaces, ..
         } = state;
-        let curvatures = self
-            .scene
-            .bodies
-            .as_ref()
-            .map(crate::closed_form::PointBody::curvature);
-        let offsets = Sides::from_fn(|side| lattice.offset_mm(side, position));
-        self.gap = lattice.cells().map(|x, z| {
-            let height = |side| {
-                let (along, across) = *curvatures.of(side);
-                let x = x + offsets.of(side);
-                0.5 * (along * x * x + across * z * z)
-            };
-            height(Side::Slider) + height(Side::Receptacle)
-        });
         let rows = 2 * lattice.window().0;
         for side in Side::BOTH {
             let surface = surfaces.of(side);

@@ -34,6 +34,8 @@ pub(super) struct State {
     pub(super) shear: (Field, Field),
     /// Path of each cell in the increment, mm.
     pub(super) slip: Field,
+    /// Pressures at the positions of the last implicit jump, MPa; none after a computed cycle.
+    pub(super) passing: Vec<Field>,
 }
 
 impl State {
@@ -56,6 +58,7 @@ impl State {
             work: (0, 0),
             shear: (window(), window()),
             slip: window(),
+            passing: Vec::new(),
         }
     }
 
@@ -90,7 +93,8 @@ impl State {
     /// Changes the fields of the window.
     fn change_window(&mut self, change: impl Fn(&Field) -> Field) {
         let (along, across) = &mut self.shear;
-        for field in [&mut self.pressure, along, across, &mut self.slip] {
+        let window = [&mut self.pressure, along, across, &mut self.slip];
+        for field in window.into_iter().chain(&mut self.passing) {
             *field = change(field);
         }
     }

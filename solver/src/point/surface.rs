@@ -88,6 +88,28 @@ impl Surface {
         (after - self.depth_mm(dose), rate)
     }
 
+    /// Specific wear rate of a place of a dose, 1/MPa.
+    pub(super) fn rate_at(&self, dose: f64) -> f64 {
+        self.growth(dose, 0.0).1
+    }
+
+    /// Dose per cycle in the last computed one, MPa mm.
+    pub(super) fn pace(&self) -> &[f64] {
+        &self.pace.values
+    }
+
+    /// Ends a jump that began and ended with these doses, in which both passes of a cycle wear alike.
+    pub(super) fn jump_to(&mut self, before: &[f64], dose: Vec<f64>, cycles: f64) {
+        self.before.values.copy_from_slice(before);
+        self.dose.values = dose;
+        let ends = self.before.values.iter().zip(&self.dose.values);
+        let fields = self.between.values.iter_mut().zip(&mut self.pace.values);
+        for ((between, pace), (before, after)) in fields.zip(ends) {
+            *between = 0.5 * (before + after);
+            *pace = (after - before) / cycles;
+        }
+    }
+
     /// Depths of all cells, mm.
     pub(super) fn depths_mm(&self) -> Vec<f64> {
         let doses = self.dose.values.iter();

@@ -1,0 +1,138 @@
+//! Jumps of a point contact that are implicit in the worn shapes, as those of sections (`cycle::implicit`).
+//!
+//! The unknowns are the doses D1 of all cells of both surfaces at the end of a jump of n cycles,
+//!   D1 = known + n b d(G(D1)),
+//! with the depth h = G(D) of a dose and the doses d(h) of one cycle on fixed shapes; b and the known part are those of Euler's formula or of
+//! the backward differentiation formula of second order. Nothing wears within a cycle, so that no leading-edge step bounds a jump. d is a sum
+//! over positions of the slider (`positions`), whose pressures are solved for together with the doses (`pressures`): one convex minimum. Each
+//! cell has its own pressure at each position, so that no combination of depths is hidden from them.
+//!
+//! Figures at 2 % of a ball of 0.4 mm under 0.5 N, +-20 um, gold over nickel on both sides, beside those of computed cycles:
+//! `tests/verify_implicit_points.rs`.
+//!
+//! Limits: one reciprocating motion, no mission, in gross slip under a dead load, wear by the dose alone. Both halves of the stroke wear alike: the shapes that
+//! computed cycles have left a little skewed are mirrored and averaged. Everything else, and a single cycle that does not converge, is
+//! integrated by computed cycles.
+
+mod convergence;
+mod end;
+mod fields;
+mod filter;
+mod jump;
+mod positions;
+mod pressures;
+mod surface;
+
+use super::error::PointError;
+use super::integrator::PointIntegrator;
+use super::jump::rejected_implicit;
+use super::point_state::PointState;
+use super::record::PointCycle;
+use super::state::State;
+use crate::closed_form::{CyclePath, SlipRegime};
+use crate::number::real_cycles;
+use crate::schedule::attempts::{Attempts, Remedy, longest_accepted_jump};
+use jump::Jumped;
+pub(super) use pressures::CyclePressures;
+
+/// Least implicit jump over that of a computed cycle. Arbitrary: one of them takes less work than a computed cycle as long as it wears less than
+/// some indentations, and longer ones are made where computed ones are bounded to less.
+const LEAST_GAIN: f64 = 1.0;
+
+impl PointIntegrator {
+    /// Makes a jump that is implicit in the worn shapes, up to a number of cycles and as long as the control allows; `None` where
+    /// computed cycles have to be integrated, or pay more.
+    ///
+    /// # Errors
+    /// A contact at the end that has no solution.
+    pub(super) fn implicit_jump(
+        &mut self,
+        state: &mut PointState,
+        remaining: u64,
+    ) -> Result<Option<PointCycle>, PointError> {
+        if !self.jumps_implicitly(state) {
+            return Ok(None);
+        }
+        let (control, before) = (state.control, state.sliding.clone());
+        let accuracy = &self.scene.accuracy;
+        let computed = control.next(accuracy, state.done, remaining, self.step(state));
+        let jump = state.control.next_implicit(accuracy, state.done, remaining);
+        if real_cycles(jump) < LEAST_GAIN * real_cycles(computed) {
+            state.control = control;
+            return Ok(None);
+        }
+        let work = state.sliding.work;
+        let mut attempts = ImplicitAttempts {
+            integrator: self,
+            state,
+        };
+        let Ok((jump, jumped)) = longest_accepted_jump(&mut attempts, jump) else {
+            let work = state.sliding.work;
+            (state.control, state.sliding) = (control, State { work, ..before });
+            return Ok(None);
+        };
+        self.contacts_at_the_end(state)?;
+        let Jumped { formula, error } = jumped;
+        state.control.update_implicit(jump, error, formula);
+        Ok(Some(self.end_cycle(state, jump, error, work)))
+    }
+
+    /// Returns `true` if jumps may be implicit.
+    fn jumps_implicitly(&self, state: &PointState) -> bool {
+        let scene = &self.scene;
+        let wears = scene.bodies.as_ref().map(|body| body.wear.is_some());
+        scene.accuracy.implicit_jumps
+            && !self.is_mission
+            && scene.slip == SlipRegime::Gross
+            && scene.path == CyclePath::ToAndFro
+            && scene.spring_n_per_mm <= 0.0
+            && scene.accuracy.cycle_jump.is_none()
+            && state.sliding.lattice.amplitude > 0
+            && (wears.slider || wears.receptacle)
+            && state.done > 0
+    }
+}
+
+/// Attempts to make the next jump of a state.
+struct ImplicitAttempts<'a> {
+    integrator: &'a mut PointIntegrator,
+    state: &'a mut PointState,
+}
+
+impl Attempts for ImplicitAttempts<'_> {
+    type Saved = State;
+    type Record = Jumped;
+    type Error = PointError;
+
+    fn attempt(&mut self, jump: u64) -> Result<Jumped, PointError> {
+        let done = self.state.done;
+        let jumped = self.integrator.jump(self.state, jump);
+        jumped.map_err(|error| error.at(done))
+    }
+
+    fn rejected(&mut self, _: &State, jumped: &Jumped, jump: u64) -> Option<u64> {
+        let accuracy = &self.integrator.scene.accuracy;
+        rejected_implicit(accuracy, self.state.done, jump, jumped.error)
+    }
+
+    fn save(&self) -> State {
+        self.state.sliding.clone()
+    }
+
+    fn go_back(&mut self, before: &State) {
+        let work = self.state.sliding.work;
+        self.state.sliding = State {
+            work,
+            ..before.clone()
+        };
+    }
+
+    fn remedy(&mut self, _: &PointError) -> Result<Remedy, PointError> {
+        Ok(Remedy::ShorterJump)
+    }
+
+    fn limit(&mut self, most: u64) -> u64 {
+        self.state.control.limit(most);
+        most
+    }
+}

@@ -1,0 +1,183 @@
+//! One jump: doses at its end, and its error.
+
+use super::fields::add_mirrored;
+use super::positions::positions;
+use super::pressures::{CyclePressures, JumpSurfaces};
+use super::surface::JumpSurface;
+use crate::contact::area::AreaError;
+use crate::number::real_cycles;
+use crate::point::error::PointError;
+use crate::point::field::Field;
+use crate::point::integrator::PointIntegrator;
+use crate::point::point_state::PointState;
+use crate::point::section::section_integral;
+use crate::point::state::State;
+use crate::point::surface::Surface;
+use crate::point::window::widen;
+use crate::schedule::jump::Formula;
+use crate::schedule::jump::implicit::two_steps;
+use crate::sides::{Side, Sides};
+
+/// Formula and estimated error of a jump.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Jumped {
+    pub(super) formula: Formula,
+    pub(super) error: f64,
+}
+
+/// Doses of both surfaces, MPa mm.
+type Doses = Sides<Vec<f64>>;
+
+impl PointIntegrator {
+    /// Makes a jump on a window that holds all contacts.
+    pub(super) fn jump(&mut self, state: &mut PointState, jump: u64) -> Result<Jumped, PointError> {
+        loop {
+            let mut pressure = self.place(state);
+            let found = self.jump_in_window(state, &mut pressure, jump);
+            match found {
+                Err(AreaError::ReachesEdge { .. }) => {
+                    take_all(&mut state.sliding, &pressure);
+                    widen(&mut state.sliding)?;
+                }
+                Err(error) => return Err(PointError::Contact { cycle: 0, error }),
+                Ok(jumped) => return Ok(jumped),
+            }
+        }
+    }
+
+    /// Places the contacts of the next cycle; returns the pressures to begin with, those of the last jump if there are as many.
+    fn place(&mut self, state: &PointState) -> Vec<f64> {
+        let (sliding, cells) = (&state.sliding, state.sliding.lattice.cells());
+        let pressures = match self.pressures.take() {
+            Some(pressures) if pressures.cells == cells => self.pressures.insert(pressures),
+            _ => {
+                let pressures = CyclePressures::new(cells, self.scene.modulus());
+                self.pressures.insert(pressures)
+            }
+        };
+        let along = state.neutral.half_lengths_mm.0 / cells.dx_mm;
+        let distance = self.scene.accuracy.step_over_half_length * along;
+        let positions = positions(&sliding.lattice, distance);
+        let gaps = positions.iter().map(|position| {
+            let gap = sliding.lattice.unworn_gap_mm(&self.scene, position.slider);
+            gap.into_iter()
+        });
+        let unworn = gaps.flatten().collect();
+        let is_known = sliding.passing.len() == positions.len();
+        let begin = |number: usize| {
+            if is_known {
+                &sliding.passing[number].values
+            } else {
+                &sliding.pressure.values
+            }
+        };
+        let pressure = (0..positions.len()).flat_map(begin).copied().collect();
+        pressures.place(positions, unworn);
+        pressure
+    }
+
+    /// Makes a jump from the pressures to begin with.
+    fn jump_in_window(
+        &mut self,
+        state: &mut PointState,
+        pressure: &mut [f64],
+        jump: u64,
+    ) -> Result<Jumped, AreaError> {
+        let Some(pressures) = &mut self.pressures else {
+            debug_assert!(false, "contacts are placed before they are solved");
+            return Err(AreaError::Force { force_n: 0.0 });
+        };
+        let force_n = self.scene.force_n;
+        let surfaces = &state.sliding.surfaces;
+        let before = surfaces.as_ref().map(mirrored_mean);
+        let mut first = at_the_end(surfaces, before.clone(), 0.0);
+        let mut iterations = pressures.solve(force_n, &mut first, pressure)?;
+        let first = first.map(|surface| surface.of_cycle);
+        let cycles = real_cycles(jump);
+        let last = state.control.last_implicit();
+        let (formula, weight) = two_steps(last, cycles);
+        let known = Sides::from_fn(|side| {
+            let part = cycles * (1.0 - weight);
+            let places = before.of(side).iter().zip(surfaces.of(side).pace());
+            places.map(|(dose, pace)| dose + part * pace).collect()
+        });
+        let mut end = at_the_end(surfaces, known, cycles * weight);
+        iterations += pressures.solve(force_n, &mut end, pressure)?;
+        let error = error(surfaces, &before, &first, &end, cycles);
+        let dose = end.map(|surface| surface.dose);
+        let (cells, count) = (pressures.cells, pressures.cells.count());
+        let positions = &pressures.positions;
+        let sections = positions.iter().zip(pressure.chunks_exact(count));
+        let of_section = sections.map(|(at, p)| at.path * section_integral(&cells, p));
+        let sliding = &mut state.sliding;
+        sliding.section_work += cycles * of_section.sum::<f64>();
+        sliding.sliding_work += cycles * self.scene.path_mm() * force_n;
+        sliding.work.0 += 2 * positions.len();
+        sliding.work.1 += iterations * positions.len();
+        for (side, dose) in [
+            (Side::Slider, dose.slider),
+            (Side::Receptacle, dose.receptacle),
+        ] {
+            let surface = sliding.surfaces.of_mut(side);
+            surface.jump_to(before.of(side), dose, cycles);
+        }
+        let window = sliding.lattice.window();
+        let fields = pressure.chunks_exact(count);
+        sliding.passing = fields.map(|p| Field::of(window, p.to_vec())).collect();
+        Ok(Jumped { formula, error })
+    }
+}
+
+/// Both surfaces at the end of a jump, of a known part of the doses.
+fn at_the_end(surfaces: &Sides<Surface>, known: Doses, cycles: f64) -> JumpSurfaces<'_> {
+    let Sides { slider, receptacle } = known;
+    let surface = |side, known| JumpSurface::new(side, surfaces.of(side), known, cycles);
+    Sides {
+        slider: surface(Side::Slider, slider),
+        receptacle: surface(Side::Receptacle, receptacle),
+    }
+}
+
+/// Estimated relative error of a jump (`schedule::jump::implicit`), from the doses before it, and those of one cycle before it and at its end.
+fn error(
+    surfaces: &Sides<Surface>,
+    before: &Doses,
+    first: &Doses,
+    end: &JumpSurfaces<'_>,
+    cycles: f64,
+) -> f64 {
+    let (mut total, mut error) = (0.0, 0.0);
+    for side in Side::BOTH {
+        let (surface, end) = (surfaces.of(side), end.of(side));
+        let ends = first.of(side).iter().zip(&end.of_cycle);
+        let doses = before.of(side).iter().zip(&end.dose);
+        for ((before, dose), (first, last)) in doses.zip(ends).filter(|((a, b), _)| b > a) {
+            let (rate, mean) = (surface.rate_at(*dose), (dose - before) / cycles);
+            total += rate * mean;
+            error += rate * (mean - 0.5 * (first + last)).abs();
+        }
+    }
+    if total > 0.0 { error / total } else { 0.0 }
+}
+
+/// Doses of a surface, the mean with the mirrored ones.
+fn mirrored_mean(surface: &Surface) -> Vec<f64> {
+    let mut doses = surface.dose.values.clone();
+    add_mirrored(&mut doses);
+    for dose in &mut doses {
+        *dose *= 0.5;
+    }
+    doses
+}
+
+/// Takes the pressures of all positions as one, with the mirrored ones, for a window that holds them all.
+fn take_all(state: &mut State, pressure: &[f64]) {
+    let together = &mut state.pressure.values;
+    for values in pressure.chunks_exact(together.len()) {
+        for (sum, value) in together.iter_mut().zip(values) {
+            *sum += value;
+        }
+    }
+    add_mirrored(together);
+    state.passing.clear();
+}

@@ -1,0 +1,213 @@
+//! The worn surface of a body at the end of a jump: the doses of all positions on it, and its depths.
+//!
+//!   D = known + n d,   d = sum of path/2 (p + p mirrored) at their places,   h = G(D).
+//!
+//! Preconditioner: what opens all gaps of a place on the surface together has the compliance C + n k W with the rate k of its layer there, and
+//! C + n k_m W by the filter with the mean k_m. The mean of all positions that load the place is scaled by the root of their ratio, before and
+//! after the filter, with the least compliance c of the grid as C: s = sqrt((c + n k_m W)/(c + n k W)). Limiting case: one rate, s = 1.
+
+use super::fields::add_mirrored;
+use super::positions::JumpPosition;
+use crate::point::surface::Surface;
+use crate::sides::Side;
+
+/// A surface at the end of a jump.
+pub(super) struct JumpSurface<'a> {
+    side: Side,
+    surface: &'a Surface,
+    /// Known part of the dose, MPa mm.
+    known: Vec<f64>,
+    /// Cycles n that the doses of one cycle count for.
+    cycles: f64,
+    /// Dose d of one cycle, MPa mm.
+    pub(super) of_cycle: Vec<f64>,
+    /// Dose at the end, MPa mm, and the depth, mm.
+    pub(super) dose: Vec<f64>,
+    depth: Vec<f64>,
+    /// Change of the dose of one cycle along a direction, MPa mm.
+    change: Vec<f64>,
+    /// (1 - s) over the path that loads a place, 1/mm.
+    share: Vec<f64>,
+    /// Sum of a field over all positions.
+    sum: Vec<f64>,
+}
+
+impl<'a> JumpSurface<'a> {
+    /// A surface of a known part of the dose in MPa mm, with doses that count for a number of cycles.
+    pub(super) fn new(side: Side, surface: &'a Surface, known: Vec<f64>, cycles: f64) -> Self {
+        let field = || vec![0.0; known.len()];
+        Self {
+            side,
+            surface,
+            cycles,
+            of_cycle: field(),
+            dose: field(),
+            depth: field(),
+            change: field(),
+            share: field(),
+            sum: field(),
+            known,
+        }
+    }
+
+    /// Takes the pressures of all positions.
+    pub(super) fn load(&mut self, positions: &[JumpPosition], pressure: &[f64]) {
+        let of_cycle = &mut self.of_cycle;
+        add_positions(self.side, self.surface, positions, pressure, of_cycle);
+        let places = self.of_cycle.iter().zip(&self.known);
+        let ends = self.dose.iter_mut().zip(&mut self.depth);
+        for ((dose, depth), (of_cycle, known)) in ends.zip(places) {
+            *dose = known + self.cycles * of_cycle;
+            *depth = self.surface.depth_mm(*dose);
+        }
+    }
+
+    /// Adds the depths to the gaps of all positions.
+    pub(super) fn add_depths(&self, positions: &[JumpPosition], gap: &mut [f64]) {
+        let count = gap.len() / positions.len();
+        for (position, gap) in positions.iter().zip(gap.chunks_exact_mut(count)) {
+            let first = self.first(position);
+            let depths = &self.depth[first..first + count];
+            for (gap, depth) in gap.iter_mut().zip(depths) {
+                *gap += depth;
+            }
+        }
+    }
+
+    /// First cell of the window at a position.
+    fn first(&self, position: &JumpPosition) -> usize {
+        self.surface.dose.width() * position.rows.of(self.side)
+    }
+
+    /// Takes a direction of the pressures; returns the sum of depths times its doses, and the change of that sum by the present layers.
+    pub(super) fn direct(&mut self, positions: &[JumpPosition], direction: &[f64]) -> (f64, f64) {
+        if self.cycles <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let change = &mut self.change;
+        add_positions(self.side, self.surface, positions, direction, change);
+        let (mut slope, mut curvature) = (0.0, 0.0);
+        let places = self.dose.iter().zip(&self.depth).zip(&self.change);
+        for ((dose, depth), change) in places.filter(|(_, change)| **change != 0.0) {
+            slope += depth * change;
+            curvature += self.cycles * self.surface.rate_at(*dose) * change * change;
+        }
+        (slope, curvature)
+    }
+
+    /// The sum of depths times the doses of the direction after a step against it.
+    pub(super) fn slope_after(&self, step: f64) -> f64 {
+        if self.cycles <= 0.0 {
+            return 0.0;
+        }
+        let step = step * self.cycles;
+        let places = self.dose.iter().zip(&self.change);
+        let changed = places.filter(|(_, change)| **change != 0.0);
+        let terms = changed.map(|(dose, change)| {
+            let after = (dose - step * change).max(0.0);
+            change * self.surface.depth_mm(after)
+        });
+        terms.sum()
+    }
+
+    /// Returns `true` if the depths are linear in the pressures.
+    pub(super) fn is_linear(&self) -> bool {
+        self.surface.is_linear() || self.cycles <= 0.0
+    }
+
+    /// Specific wear rate times the cycles in the mean of the doses of a cycle, 1/MPa.
+    pub(super) fn mean_wear(&self) -> f64 {
+        let (mut worn, mut total) = (0.0, 0.0);
+        let places = self.dose.iter().zip(&self.of_cycle);
+        for (dose, of_cycle) in places.filter(|(_, of_cycle)| **of_cycle > 0.0) {
+            worn += of_cycle * self.surface.rate_at(*dose);
+            total += of_cycle;
+        }
+        if total > 0.0 {
+            self.cycles * worn / total
+        } else {
+            0.0
+        }
+    }
+
+    /// Chooses the scales for the present layers and contacts, with the least compliance of the grid, mm/MPa.
+    pub(super) fn set_scale(
+        &mut self,
+        positions: &[JumpPosition],
+        pressure: &[f64],
+        least_compliance: f64,
+    ) {
+        if self.is_linear() {
+            return;
+        }
+        let total: f64 = positions.iter().map(|position| position.path).sum();
+        let mean = least_compliance + total * self.mean_wear();
+        self.sum.fill(0.0);
+        let count = pressure.len() / positions.len();
+        for (position, pressure) in positions.iter().zip(pressure.chunks_exact(count)) {
+            let first = self.first(position);
+            let places = self.sum[first..first + count].iter_mut().zip(pressure);
+            for (path, _) in places.filter(|(_, p)| **p > 0.0) {
+                *path += 0.5 * position.path;
+            }
+        }
+        add_mirrored(&mut self.sum);
+        let places = self.sum.iter().zip(&self.dose);
+        for (share, (path, dose)) in self.share.iter_mut().zip(places) {
+            *share = 0.0;
+            if *path > 0.0 {
+                let rate = self.surface.rate_at(*dose);
+                let wear = least_compliance + total * self.cycles * rate;
+                *share = (1.0 - (mean / wear).sqrt()) / path;
+            }
+        }
+    }
+
+    /// Scales the mean of a field of all positions in contact.
+    pub(super) fn scale(
+        &mut self,
+        positions: &[JumpPosition],
+        pressure: &[f64],
+        field: &mut [f64],
+    ) {
+        if self.is_linear() {
+            return;
+        }
+        add_positions(self.side, self.surface, positions, field, &mut self.sum);
+        let count = field.len() / positions.len();
+        let fields = field.chunks_exact_mut(count);
+        for (position, (field, pressure)) in positions
+            .iter()
+            .zip(fields.zip(pressure.chunks_exact(count)))
+        {
+            let first = self.first(position);
+            let shares = &self.share[first..first + count];
+            let means = self.sum[first..first + count].iter().zip(shares);
+            for ((value, p), (sum, share)) in field.iter_mut().zip(pressure).zip(means) {
+                if *p > 0.0 {
+                    *value -= share * sum;
+                }
+            }
+        }
+    }
+}
+
+/// Writes the sum of half of the path times a field at each position and at the mirrored one.
+fn add_positions(
+    side: Side,
+    surface: &Surface,
+    positions: &[JumpPosition],
+    field: &[f64],
+    out: &mut [f64],
+) {
+    out.fill(0.0);
+    let count = field.len() / positions.len();
+    for (position, values) in positions.iter().zip(field.chunks_exact(count)) {
+        let first = surface.dose.width() * position.rows.of(side);
+        let half = 0.5 * position.path;
+        for (out, value) in out[first..first + count].iter_mut().zip(values) {
+            *out += half * value;
+        }
+    }
+    add_mirrored(out);
+}
