@@ -26,6 +26,7 @@ mod verify_gross_slip;
 mod verify_heating;
 mod verify_hertz_line_contact;
 mod verify_implicit_jumps;
+mod verify_implicit_points;
 mod verify_invariance;
 mod verify_jumps_in_a_deep_groove;
 mod verify_life_by_resistance;

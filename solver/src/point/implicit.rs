@@ -22,6 +22,8 @@ mod jump;
 mod positions;
 mod pressures;
 mod surface;
+#[cfg(test)]
+mod tests;
 
 use super::error::PointError;
 use super::integrator::PointIntegrator;

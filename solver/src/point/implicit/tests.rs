@@ -1,0 +1,148 @@
+use super::pressures::JumpSurfaces;
+use super::surface::JumpSurface;
+use super::*;
+use crate::closed_form::{PointAccuracy, PointBody, PointScene};
+use crate::law::elastic::Elastic;
+use crate::law::plating::Layer;
+use crate::law::surface::SurfaceWear;
+use crate::law::wear::WearLaw;
+use crate::point::motions::PointMotions;
+use crate::sides::{Side, Sides};
+
+/// A ball on a flat, both of gold over a base of 10 times its rate.
+fn scene(gold: f64) -> PointScene {
+    let elastic = Elastic {
+        youngs_modulus_mpa: 120e3,
+        poisson_ratio: 0.3,
+    };
+    let layer = Layer {
+        thickness_mm: 1e-4,
+        rate_per_mpa: gold,
+    };
+    let base = WearLaw::Archard {
+        k_over_h_per_mpa: 10.0 * gold,
+    };
+    let body = |radius| PointBody {
+        radius_along_mm: radius,
+        radius_across_mm: radius,
+        elastic,
+        wear: SurfaceWear::new(&[layer], Some(base)),
+    };
+    PointScene {
+        bodies: Sides {
+            slider: body(Some(0.4)),
+            receptacle: body(None),
+        },
+        force_n: 0.5,
+        friction: 0.3,
+        slip: SlipRegime::Gross,
+        amplitude_mm: -0.02,
+        path: CyclePath::ToAndFro,
+        cycles: 1_000,
+        spring_n_per_mm: 0.0,
+        accuracy: PointAccuracy {
+            implicit_jumps: true,
+            cells_per_half_length: 8.0,
+            ..PointAccuracy::from_tolerance(0.02)
+        },
+    }
+}
+
+fn begin(scene: &PointScene) -> (PointIntegrator, PointState) {
+    let mut integrator =
+        PointIntegrator::unloaded(&PointMotions::single(scene)).expect("it is a point contact");
+    let state = integrator.load().expect("it can be loaded");
+    (integrator, state)
+}
+
+fn doses(state: &PointState) -> Sides<Vec<f64>> {
+    let surfaces = state.sliding.surfaces.as_ref();
+    surfaces.map(|surface| surface.dose.values.clone())
+}
+
+fn apart(found: &[f64], expected: &[f64]) -> f64 {
+    let apart = found.iter().zip(expected).map(|(a, b)| (a - b).abs());
+    apart.sum::<f64>() / expected.iter().sum::<f64>()
+}
+
+#[test]
+fn a_jump_of_one_cycle_is_a_computed_one() {
+    let scene = scene(1e-12);
+    let (mut integrator, mut computed) = begin(&scene);
+    integrator
+        .compute_cycle(&mut computed, 1)
+        .expect("it slides");
+    let (mut integrator, mut state) = begin(&scene);
+    integrator.jump(&mut state, 1).expect("it converges");
+    let (found, expected) = (doses(&state), doses(&computed));
+    // Increments spread the doses of the receptacle evenly over the cells that they pass.
+    let off = Sides::from_fn(|side| apart(found.of(side), expected.of(side)));
+    assert!(off.slider < 0.02 && off.receptacle < 0.1, "{off:?}");
+    let work = state.sliding.sliding_work / computed.sliding.sliding_work;
+    assert!((work - 1.0).abs() < 1e-12, "{work}");
+}
+
+#[test]
+fn missions_and_contacts_that_are_not_switched_are_computed_by_cycles() {
+    let mut scene = scene(1e-12);
+    let (mut integrator, mut state) = begin(&scene);
+    integrator.compute_cycle(&mut state, 1).expect("it slides");
+    assert!(integrator.jumps_implicitly(&state));
+    integrator.is_mission = true;
+    assert!(!integrator.jumps_implicitly(&state));
+    scene.accuracy.implicit_jumps = false;
+    assert!(!begin(&scene).0.jumps_implicitly(&state));
+}
+
+#[test]
+fn a_jump_ends_where_its_doses_are_those_of_its_last_shapes() {
+    let scene = scene(1e-8);
+    let (mut integrator, mut state) = begin(&scene);
+    let cycles = 350;
+    integrator.jump(&mut state, cycles).expect("it converges");
+    let dose = doses(&state);
+    let deepest = state.sliding.surfaces.slider.depths_mm();
+    let deepest = deepest
+        .iter()
+        .fold(0.0, |most: f64, depth| most.max(*depth));
+    assert!(deepest > 1e-4, "{deepest}");
+    // Of one cycle on the shapes that do not wear any more.
+    let mut pressure: Vec<f64> = Vec::new();
+    for field in &state.sliding.passing {
+        pressure.extend(&field.values);
+    }
+    let surfaces = &state.sliding.surfaces;
+    let surface = |side| JumpSurface::new(side, surfaces.of(side), dose.of(side).clone(), 0.0);
+    let mut fixed: JumpSurfaces<'_> = Sides::from_fn(surface);
+    let pressures = integrator.pressures.as_mut().expect("they are placed");
+    let solved = pressures.solve(scene.force_n, &mut fixed, &mut pressure);
+    assert!(solved.expect("it converges") <= 2);
+    for side in Side::BOTH {
+        let of_cycle = fixed.of(side).of_cycle.iter();
+        let expected: Vec<f64> = of_cycle.map(|dose| real_cycles(cycles) * dose).collect();
+        let off = apart(dose.of(side), &expected);
+        assert!(off < 1e-3, "{side:?}: {off}");
+    }
+}
+
+#[test]
+fn the_doses_of_jumps_add_up_to_the_sliding_work() {
+    let mut scene = scene(1e-8);
+    scene.bodies.receptacle.radius_along_mm = Some(2.0);
+    let (mut integrator, mut state) = begin(&scene);
+    while state.cycle() < scene.cycles {
+        let cycle = integrator.compute_cycle(&mut state, scene.cycles);
+        cycle.expect("it slides");
+    }
+    assert!(!state.sliding.passing.is_empty());
+    let residuals = state.residuals(&scene);
+    assert!(residuals.dose < 1e-12, "{residuals:?}");
+    assert!(residuals.contact < 1e-7 && residuals.friction_use < 1.0 + 1e-12);
+    let left: Vec<f64> = state.turning[0].pressure_mpa.clone();
+    let right = state.turning[1].pressure_mpa.iter().rev();
+    assert!(
+        left.iter()
+            .zip(right)
+            .all(|(a, b)| a.to_bits() == b.to_bits())
+    );
+}
