@@ -15,7 +15,6 @@ mod check;
 mod contact_at_position;
 mod error;
 mod field;
-mod implicit;
 mod integrator;
 mod jump;
 mod lattice;

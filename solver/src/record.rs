@@ -17,9 +17,10 @@ mod summary;
 mod warning;
 mod worn_area;
 
-pub use crate::cycle::{BlockWear, Checks, FrictionLoop};
+pub use crate::cycle::{Checks, FrictionLoop};
 pub use crate::fields::{LineFields, PlacedFields};
 pub use crate::schedule::increments::Position;
+pub use crate::schedule::mission_state::BlockWear;
 pub use crate::schedule::stops::Outcome;
 pub use crate::sides::Side;
 pub use channel::{Channel, Channels};

@@ -6,6 +6,7 @@ pub(crate) mod equivalent_wear;
 pub mod increments;
 pub mod jump;
 pub(crate) mod mission;
+pub(crate) mod mission_state;
 pub mod plan;
 pub(crate) mod replay;
 pub(crate) mod step;

@@ -5,9 +5,10 @@ use super::integrator::{Before, SectionsIntegrator};
 use super::state::Progress;
 use super::{Ending, StationCycle, StationProfile, StationReport, groove_mm, worn_area_residual};
 use crate::contact::ContactState;
-use crate::cycle::{BlockWear, Checks, FrictionLoop};
+use crate::cycle::{Checks, FrictionLoop};
 use crate::law::surface::{self, SurfaceWear};
 use crate::number::real_cycles;
+use crate::schedule::mission_state::BlockWear;
 use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
 

@@ -4,13 +4,14 @@ use serde::{Deserialize, Serialize};
 
 use super::earlier::EarlierRuns;
 use super::section::SectionState;
-use crate::cycle::{MissionState, MotionHistory};
+use crate::cycle::MotionHistory;
 use crate::effects::Crossing;
 use crate::electrical::ElectricalState;
 use crate::extruded::{ExtrudedHistory, ExtrudedState};
 use crate::point::{PointHistory, PointState};
 use crate::record::{Compared, Initial, Life};
 use crate::scene::{Motion, Scene};
+use crate::schedule::mission_state::MissionState;
 use crate::station::{LineHistory, LineState};
 
 /// A run between two computed cycles: the state of its contact, and the history that a motion leaves where a run has several.

@@ -6,6 +6,7 @@
 //! Limiting case: Hertz' ellipse of contact.
 
 mod cells;
+mod convergence;
 mod convolution;
 mod error;
 mod kernel;
@@ -15,6 +16,7 @@ mod tangential;
 mod transform;
 
 pub use cells::Cells;
+pub(crate) use convergence::Convergence;
 pub(crate) use convolution::{Convolution, Parity};
 pub use error::AreaError;
 pub(crate) use kernel::{ShearCompliance, normal_influence};

@@ -1,8 +1,9 @@
 //! Computed cycles of a point contact: each stands for a jump, whose wear both of its passes do at once.
 
+mod implicit;
+
 use super::contact_at_position::ContactAtPosition;
 use super::error::PointError;
-use super::implicit::CyclePressures;
 use super::jump::{JumpControl, jump_error, rejected, share_in_wear};
 use super::lattice::Lattice;
 use super::legs::legs;
@@ -19,6 +20,7 @@ use crate::number::real_cycles;
 use crate::schedule::attempts::{Attempts, Remedy, longest_accepted_jump};
 use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
+use implicit::CyclePressures;
 
 /// Largest step over indentation of a single cycle whose contact is reported without a step, where only one body wears; otherwise its
 /// pressure in the last pass is reported, with the step of the jump. As for line contacts (`Tuning::unskewed_to`).
@@ -318,11 +320,7 @@ impl Attempts for PointAttempts<'_> {
     }
 
     fn go_back(&mut self, before: &State) {
-        let work = self.state.sliding.work;
-        self.state.sliding = State {
-            work,
-            ..before.clone()
-        };
+        self.state.sliding.go_back(before);
     }
 
     /// The window has been widened as far as it can be.

@@ -9,9 +9,9 @@ use super::point_state::PointState;
 use super::section::section;
 use super::state::start;
 use crate::closed_form::SlipRegime;
-use crate::cycle::BlockWear;
 use crate::interpolation;
 use crate::scene::{Motion, Scene};
+use crate::schedule::mission_state::BlockWear;
 use crate::sides::Sides;
 
 impl PointIntegrator {

@@ -62,6 +62,13 @@ impl State {
         }
     }
 
+    /// Goes back to an earlier state; the work since then counts.
+    pub(super) fn go_back(&mut self, before: &Self) {
+        let work = self.work;
+        self.clone_from(before);
+        self.work = work;
+    }
+
     /// Moves everything to grids of another size.
     pub(super) fn resize(&mut self, lattice: Lattice) {
         for side in Side::BOTH {

@@ -3,10 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use crate::contact::Work;
-use crate::cycle::{BlockWear, Checks, CycleState};
+use crate::cycle::{Checks, CycleState};
 use crate::effects::{Crossing, Verdict};
 use crate::record::{Compared, CycleReport, Errors, Life, Warning};
 use crate::scene::Effect;
+use crate::schedule::mission_state::BlockWear;
 use crate::schedule::stops::Outcome;
 use crate::sides::Sides;
 

@@ -12,12 +12,12 @@ use std::borrow::Cow;
 use crate::SolveError;
 use crate::change::Change;
 use crate::checkpoint::{Resumable, Run};
-use crate::cycle::BlockWear;
 use crate::effects::EffectsPlan;
 use crate::electrical::{ContactResistance, ElectricalState, Evaluation, Touching};
 use crate::observer::Observer;
 use crate::record::{Checks, CycleReport, Exposed, Outcome, Resolution, Snapshot, WornArea};
 use crate::scene::{Motion, Scene};
+use crate::schedule::mission_state::BlockWear;
 use crate::sides::{Side, Sides};
 
 /// The run of bodies.

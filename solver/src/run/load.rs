@@ -7,11 +7,11 @@ use super::resistance::Resistance;
 use super::step::required_after;
 use crate::SolveError;
 use crate::checkpoint::{EarlierRuns, Run};
-use crate::cycle::MissionState;
 use crate::effects::EffectsPlan;
 use crate::observer::{Event, Observer, Restart};
 use crate::record::{Compared, Initial, Life};
 use crate::scene::Scene;
+use crate::schedule::mission_state::MissionState;
 
 /// The loaded, unworn bodies, and the plan that their load required.
 pub(super) struct Loaded<B: Bodies> {

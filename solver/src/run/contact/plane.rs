@@ -10,9 +10,7 @@ use crate::ale;
 use crate::change::Change;
 use crate::checkpoint::{Resumable, SectionRun, SectionState};
 use crate::condensation::{self, Condensed};
-use crate::cycle::{
-    BlockWear, CycleRecord, CycleState, Integrator, MissionState, MotionHistory, mean_error,
-};
+use crate::cycle::{CycleRecord, CycleState, Integrator, MotionHistory, mean_error};
 use crate::effects::EffectsPlan;
 use crate::electrical::{ContactResistance, ElectricalState, Evaluation, Touching};
 use crate::fields;
@@ -21,6 +19,7 @@ use crate::model::{self, Model, ZONE_WIDENING};
 use crate::observer::{Observer, Phase};
 use crate::record::{self, Checks, CycleReport, Exposed, Resolution, Snapshot};
 use crate::scene::{Motion, Scene};
+use crate::schedule::mission_state::{BlockWear, MissionState};
 use crate::sides::{Side, Sides};
 
 /// A plane section: its model and its operators.
@@ -203,7 +202,16 @@ impl Contact for PlaneContact<'_> {
     }
 
     fn totals(&self, state: &SectionState) -> BlockWear {
-        BlockWear::total(&state.cycle_state, &self.plane.model.interface.wear)
+        let (state, wear) = (&state.cycle_state, self.plane.model.interface.wear);
+        let whole = BlockWear::whole(
+            state.cycle,
+            state.sliding_distance,
+            state.energy,
+            state.worn_area,
+        );
+        whole.with_equivalents(Sides::from_fn(|side| {
+            surface::equivalents(*wear.of(side), state.depth.of(side)).into_owned()
+        }))
     }
 
     fn nodal_depths<'a>(&self, state: &'a SectionState) -> Sides<Cow<'a, [f64]>> {

@@ -9,7 +9,6 @@ use crate::change::Change;
 use crate::checkpoint::{PointRun, Resumable};
 use crate::closed_form::{PointScene, SlipRegime};
 use crate::contact::Work;
-use crate::cycle::BlockWear;
 use crate::effects::EffectsPlan;
 use crate::electrical::{AreaContact, ContactResistance, Evaluation, Touching};
 use crate::interpolation::part_way;
@@ -24,6 +23,7 @@ use crate::record::{
     PressureMap, Resolution, Snapshot, TractionField, WornArea,
 };
 use crate::scene::{Effect, Motion, Scene};
+use crate::schedule::mission_state::BlockWear;
 use crate::sides::{Side, Sides};
 
 impl Bodies for PointIntegrator {

@@ -11,7 +11,6 @@ use crate::along_line::{
 use crate::change::Change;
 use crate::checkpoint::{Resumable, Run};
 use crate::contact::Work;
-use crate::cycle::{BlockWear, MissionState};
 use crate::effects::EffectsPlan;
 use crate::electrical::{ContactResistance, Evaluation, Touching};
 use crate::fields::LineFields;
@@ -21,6 +20,7 @@ use crate::record::{
     StationSnapshot, TractionField, WornArea, tractions,
 };
 use crate::scene::{Motion, Scene};
+use crate::schedule::mission_state::{BlockWear, MissionState};
 use crate::sides::{Side, Sides};
 
 /// Parts of a run of sections along a line that stations and node planes have each in their own way.

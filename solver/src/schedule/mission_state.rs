@@ -2,12 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::CycleState;
-use crate::law::surface::{self, SurfaceWear};
+use super::mission::MissionPosition;
+use super::stops::StopQuantities;
 use crate::number::real_cycles;
 use crate::scene::{Mission, Scene};
-use crate::schedule::mission::MissionPosition;
-use crate::schedule::stops::StopQuantities;
 use crate::sides::{Side, Sides};
 
 /// Wear of a block of a mission.
@@ -134,20 +132,6 @@ impl BlockWear {
             worn_area_mm2,
             share_of_deepest: worn_area_mm2.map(|area| if area > 0.0 { 1.0 } else { 0.0 }),
             equivalent: Sides::default(),
-        }
-    }
-
-    /// Totals of a run on surfaces of this wear.
-    pub(crate) fn total(state: &CycleState, wear: &Sides<Option<SurfaceWear>>) -> Self {
-        Self {
-            cycles: state.cycle,
-            sliding_distance_mm: state.sliding_distance,
-            energy_mj_per_mm: state.energy,
-            worn_area_mm2: state.worn_area,
-            share_of_deepest: Sides::default(),
-            equivalent: Sides::from_fn(|side| {
-                surface::equivalents(*wear.of(side), state.depth.of(side)).into_owned()
-            }),
         }
     }
 

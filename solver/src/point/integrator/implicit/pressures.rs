@@ -14,12 +14,11 @@
 //! Limits: a direction that is cut off at 0 need not descend. Where a fast base lies open beside plating and the jump wears many
 //! indentations, the iteration may not converge; such a jump is shortened.
 
-use super::convergence::Convergence;
 use super::fields::{mask, mean_in_contact, reaches_edge, remove_resultants, scale};
 use super::filter::PressureFilter;
 use super::positions::JumpPosition;
 use super::surface::JumpSurface;
-use crate::contact::area::{AreaError, Cells, Convolution, Parity, normal_influence};
+use crate::contact::area::{AreaError, Cells, Convergence, Convolution, Parity, normal_influence};
 use crate::number::real;
 use crate::sides::{Side, Sides};
 

@@ -14,7 +14,6 @@
 //! computed cycles have left a little skewed are mirrored and averaged. Everything else, and a single cycle that does not converge, is
 //! integrated by computed cycles.
 
-mod convergence;
 mod end;
 mod fields;
 mod filter;
@@ -25,12 +24,12 @@ mod surface;
 #[cfg(test)]
 mod tests;
 
-use super::error::PointError;
-use super::integrator::PointIntegrator;
-use super::jump::rejected_implicit;
-use super::point_state::PointState;
-use super::record::PointCycle;
-use super::state::State;
+use super::super::error::PointError;
+use super::super::jump::rejected_implicit;
+use super::super::point_state::PointState;
+use super::super::record::PointCycle;
+use super::super::state::State;
+use super::PointIntegrator;
 use crate::closed_form::{CyclePath, SlipRegime};
 use crate::number::real_cycles;
 use crate::schedule::attempts::{Attempts, Remedy, longest_accepted_jump};
@@ -122,11 +121,7 @@ impl Attempts for ImplicitAttempts<'_> {
     }
 
     fn go_back(&mut self, before: &State) {
-        let work = self.state.sliding.work;
-        self.state.sliding = State {
-            work,
-            ..before.clone()
-        };
+        self.state.sliding.go_back(before);
     }
 
     fn remedy(&mut self, _: &PointError) -> Result<Remedy, PointError> {
