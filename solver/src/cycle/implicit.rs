@@ -42,7 +42,7 @@ use crate::schedule::stroke::Stroke;
 use crate::sides::{Side, Sides};
 use attempts::JumpAttempts;
 pub(super) use buffers::ImplicitJumps;
-use contacts::{Bodies, Contacts};
+use contacts::Bodies;
 use dose_laws::DoseLaws;
 use end::End;
 use formulas::{Formulas, JumpFrom};
@@ -201,7 +201,7 @@ impl Integrator<'_> {
             state.contact.indentation,
         );
         let contacts = &mut self.implicit.contacts;
-        let mut first = doses_of_one(contacts, bodies, &positions, &state.depth, &starts)?;
+        let mut first = contacts.doses_on(bodies, &positions, &state.depth, &starts)?;
         let worn_next = self.worn_next(state, laws, cycles, &first);
         let mut bodies = Bodies::of(
             &self.pair,
@@ -212,7 +212,7 @@ impl Integrator<'_> {
         let ImplicitJumps { contacts, system } = &mut self.implicit;
         if let Some(worn_next) = &worn_next {
             bodies.next.thickness = Thickness::OfNodes(worn_next);
-            first = doses_of_one(contacts, bodies, &positions, &state.depth, &starts)?;
+            first = contacts.doses_on(bodies, &positions, &state.depth, &starts)?;
         }
         let before = laws.doses(&state.depth);
         let nodes = first.as_ref().map(Vec::len);
@@ -312,22 +312,6 @@ impl Integrator<'_> {
         }
         Ok(starts)
     }
-}
-
-/// Doses of one cycle on fixed shapes, MPa mm, of contacts that are placed at positions from starts.
-///
-/// # Errors
-/// [`ContactError`] if one has no solution.
-fn doses_of_one(
-    contacts: &mut Contacts,
-    bodies: Bodies<'_>,
-    positions: &[CyclePosition],
-    depth: &Sides<Vec<f64>>,
-    starts: &WarmStarts,
-) -> Result<Sides<Vec<f64>>, ContactError> {
-    contacts.place(bodies, positions.to_vec(), depth, starts)?;
-    contacts.settle(bodies, depth)?;
-    Ok(contacts.doses(bodies))
 }
 
 /// Returns `true` if the jumps of a motion may be implicit.

@@ -127,6 +127,22 @@ impl Contacts {
         Ok(())
     }
 
+    /// Places contacts at positions on fixed shapes and solves them; returns the doses of one cycle, MPa mm.
+    ///
+    /// # Errors
+    /// [`ContactError`] if one has no solution.
+    pub(super) fn doses_on(
+        &mut self,
+        bodies: Bodies<'_>,
+        positions: &[CyclePosition],
+        depth: &Sides<Vec<f64>>,
+        starts: &WarmStarts,
+    ) -> Result<Sides<Vec<f64>>, ContactError> {
+        self.place(bodies, positions.to_vec(), depth, starts)?;
+        self.settle(bodies, depth)?;
+        Ok(self.doses(bodies))
+    }
+
     /// Doses of one cycle at the nodes of both sides, MPa mm.
     pub(super) fn doses(&self, bodies: Bodies<'_>) -> Sides<Vec<f64>> {
         let operators = bodies.pair.operators.as_ref();
