@@ -25,10 +25,12 @@ use crate::change::Change;
 use crate::closed_form::expected_wear::expected_end;
 use crate::model::Layout;
 use crate::number::{cycles_at_least, real, real_cycles};
-use crate::scene::Scene;
+use crate::scene::{Accuracy, Scene};
+use crate::schedule::jump::JumpControl;
 use crate::schedule::mission::MissionPosition;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
 use crate::schedule::stops;
+use crate::schedule::stroke::Stroke;
 use crate::sides::Sides;
 
 use blocks::{Block, WornBlocks};
@@ -128,23 +130,13 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
             scar.change_motion();
         }
         let (accuracy, stroke) = (&scene.accuracy, scar.stroke(scene, cycle));
-        let is_reshaped =
-            stroke.reshapes_both() && real_cycles(cycle) < RESHAPED / accuracy.tolerance;
-        let implicit = if is_implicit && !stroke.is_groove && !is_reshaped {
-            ImplicitStep::next(jump, scar, accuracy, stroke, until - cycle)
-        } else {
-            None
+        let range = StepRange {
+            done: cycle,
+            until,
+            at_edge,
+            is_implicit,
         };
-        let mut step = match &implicit {
-            Some(implicit) => implicit.jump,
-            None => jump.next(accuracy, stroke, until - cycle),
-        };
-        if accuracy.cycle_jump.is_none() {
-            step = step.min(at_edge);
-            if is_reshaped {
-                step = 1;
-            }
-        }
+        let (implicit, mut step) = next_step(jump, scar, accuracy, stroke, range);
         if is_first && stroke.is_groove {
             // Nothing to extrapolate from.
             step = 1;
@@ -181,9 +173,10 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         } else {
             0.0
         };
+        let increments = edges.increments(is_implicit) * real(plan.increments());
         run.segments.push(Segment {
             cycle,
-            increments: real_cycles(together) * real(plan.increments()) + changed,
+            increments: real_cycles(together) * increments + changed,
             steps: plan.steps,
             half_width_mm: scar.half_width,
             nodes: nodes_within(x, scar.half_width),
@@ -194,6 +187,46 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
     }
     run.fast_layer = edges.course(cycle);
     run
+}
+
+/// What bounds the next computed cycle or jump.
+#[derive(Clone, Copy)]
+struct StepRange {
+    /// Cycles done, and those that must be hit exactly.
+    done: u64,
+    until: u64,
+    /// The largest jump while the edge of a layer moves.
+    at_edge: u64,
+    /// True if jumps may be implicit.
+    is_implicit: bool,
+}
+
+/// The next jump, with its implicit form if it has one.
+fn next_step(
+    jump: &mut JumpControl,
+    scar: &Scar,
+    accuracy: &Accuracy,
+    stroke: Stroke,
+    range: StepRange,
+) -> (Option<ImplicitStep>, u64) {
+    let remaining = range.until - range.done;
+    let is_reshaped =
+        stroke.reshapes_both() && real_cycles(range.done) < RESHAPED / accuracy.tolerance;
+    let implicit = if range.is_implicit && !stroke.is_groove && !is_reshaped {
+        ImplicitStep::next(jump, scar, accuracy, stroke, remaining)
+    } else {
+        None
+    };
+    let step = match &implicit {
+        Some(implicit) => implicit.jump,
+        None => jump.next(accuracy, stroke, remaining),
+    };
+    let step = match accuracy.cycle_jump {
+        Some(_) => step,
+        None if is_reshaped => 1,
+        None => step.min(range.at_edge),
+    };
+    (implicit, step)
 }
 
 /// Number of computed cycles that are forecast at once. A fixed jump needs no control, and a hundredth of the cycles
