@@ -117,7 +117,9 @@ fn check_forced(given: &Given, plan: EffectsPlan, diagnostics: &mut Diagnostics)
                 Effect::StickMemory => {
                     "cannot be on: a point contact sticks in part up to amplitudes of a tenth of its half-length"
                 }
-                _ => "cannot be on: a point contact is simulated without it",
+                _ => {
+                    "cannot be on: the contact of this `model.dimension` is simulated without it; `plane_strain` has it"
+                }
             };
             diagnostics.fault(&pointer, detail);
         } else if forced && is_out {
