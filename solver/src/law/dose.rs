@@ -64,10 +64,10 @@ impl DoseCurve {
         self.recession(0.0, equivalent / self.initial_rate()).0
     }
 
-    /// Depths between which the layer of a depth lies, mm.
-    pub(crate) fn layer(&self, depth: f64) -> Range<f64> {
+    /// Depths around one between which no layer wears faster than the one above it, mm.
+    pub(crate) fn without_faster(&self, depth: f64) -> Range<f64> {
         match self {
-            Self::Layers(layers) => layers.layer(depth),
+            Self::Layers(layers) => layers.without_faster(depth),
             Self::Barwell(_) => 0.0..f64::INFINITY,
         }
     }

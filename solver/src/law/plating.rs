@@ -80,12 +80,14 @@ impl Layers {
         bottoms.take_while(|bottom| depth >= **bottom).count()
     }
 
-    /// Depths between which the layer of a depth lies, mm; the base has no end.
-    pub(crate) fn layer(&self, depth: f64) -> Range<f64> {
-        let (bottoms, at) = (&self.bottom[..self.count], self.at(depth));
-        let start = at.checked_sub(1).map_or(0.0, |above| bottoms[above]);
-        let end = bottoms.get(at);
-        start..end.copied().unwrap_or(f64::INFINITY)
+    /// Depths around one between which no layer wears faster than the one above it, mm; the base has no end.
+    pub(crate) fn without_faster(&self, depth: f64) -> Range<f64> {
+        let at = self.at(depth);
+        let quickens = |bottom: &usize| self.rate[bottom + 1] > self.rate[*bottom];
+        let start = (0..at).rev().find(quickens);
+        let end = (at..self.count).find(quickens);
+        let bottom = |found: usize| self.bottom[found];
+        start.map_or(0.0, bottom)..end.map_or(f64::INFINITY, bottom)
     }
 
     /// Specific wear rate at a depth in mm, 1/MPa.
@@ -173,6 +175,20 @@ mod tests {
 
     fn is_close(a: f64, b: f64) -> bool {
         (a - b).abs() <= 1e-14 * b.abs().max(1e-3)
+    }
+
+    #[test]
+    fn layers_of_one_rate_have_no_interface() {
+        let layer = |rate_per_mpa| Layer {
+            thickness_mm: 1e-3,
+            rate_per_mpa,
+        };
+        let rates = [2e-8, 2e-8, 1e-8, 3e-8];
+        let layers = Layers::new(&rates.map(layer), 3e-8);
+        assert_eq!(layers.without_faster(0.0), 0.0..3e-3);
+        assert_eq!(layers.without_faster(2.5e-3), 0.0..3e-3);
+        assert_eq!(layers.without_faster(3e-3), 3e-3..f64::INFINITY);
+        assert_eq!(layers.without_faster(9e-3), 3e-3..f64::INFINITY);
     }
 
     #[test]

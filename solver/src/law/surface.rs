@@ -243,11 +243,11 @@ impl SurfaceWear {
         }
     }
 
-    /// Depths between which the layer of a depth lies, mm.
-    pub(crate) fn layer(self, depth: f64) -> Range<f64> {
+    /// Depths around one between which no layer wears faster than the one above it, mm.
+    pub(crate) fn without_faster(self, depth: f64) -> Range<f64> {
         match self {
             Self::Law(_) | Self::ByPower { .. } => 0.0..f64::INFINITY,
-            Self::ByDose(curve) => curve.layer(depth),
+            Self::ByDose(curve) => curve.without_faster(depth),
         }
     }
 

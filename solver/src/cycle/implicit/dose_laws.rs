@@ -45,12 +45,12 @@ impl DoseLaws {
             .map_or(0.0, |wear| wear.depth(dose * rate(wear)))
     }
 
-    /// Doses between which the layer of a depth in mm wears, MPa mm.
-    pub(super) fn layer(&self, side: Side, depth: f64) -> Range<f64> {
+    /// Doses around that of a depth in mm between which no layer wears faster than the one above it, MPa mm.
+    pub(super) fn without_faster(&self, side: Side, depth: f64) -> Range<f64> {
         let Some(wear) = self.0.of(side) else {
             return 0.0..f64::INFINITY;
         };
-        let layer = wear.layer(depth);
+        let layer = wear.without_faster(depth);
         let dose = |depth: f64| {
             if depth.is_finite() {
                 wear.equivalent(depth) / rate(*wear)

@@ -1,8 +1,8 @@
 //! Formula of a jump, node by node.
 //!
 //! That of two steps takes a part of the dose from the jump before. Where a fast layer comes to lie open, the dose of the slow one above it
-//! would dig a hole which no pressure, of one sign, fills again: only the dose of the present layer in the jump before counts, and it wears no more than
-//! what is left of that layer. The shapes at the end take what is lost by that, so that a side takes the work of all cycles.
+//! would dig a hole which no pressure, of one sign, fills again: only the dose since then in the jump before counts, and it wears no more than what is
+//! left above the next faster layer. The shapes at the end take what is lost by that, so that both sides take the work of all cycles.
 
 use super::dose_laws::DoseLaws;
 use crate::linear::vector::dot;
@@ -33,7 +33,7 @@ pub(super) struct Formulas {
     /// Known parts of the doses, MPa mm.
     pub(super) known: Sides<Vec<f64>>,
     /// Cycles on the last shapes.
-    pub(super) cycles: Sides<f64>,
+    pub(super) cycles: f64,
 }
 
 impl Formulas {
@@ -45,40 +45,54 @@ impl Formulas {
             return Self {
                 formula,
                 known: dose.clone(),
-                cycles: Sides::from_fn(|_| cycles),
+                cycles,
             };
         };
         let share = cycles / last.cycles * (1.0 - weight);
-        let known = Sides::from_fn(|side| from.known(side, last, share));
-        let on_last = Sides::from_fn(|side| {
-            let work = |doses: &[f64]| dot(doses, from.widths.of(side));
-            let of_cycle = work(from.of_cycle.of(side));
-            let grown = work(known.of(side)) - work(dose.of(side));
-            if of_cycle > 0.0 {
-                cycles - grown / of_cycle
-            } else {
-                cycles * weight
-            }
+        let taken = Sides::from_fn(|side| from.taken(side, last, share));
+        let work = |side, doses: &[f64]| dot(doses, from.widths.of(side));
+        let works = Sides::from_fn(|side| work(side, taken.of(side)));
+        let worn = Side::BOTH
+            .into_iter()
+            .filter(|side| *from.laws.wears().of(*side));
+        // Both sides take the work of the cycles: that of the side which loses more.
+        let least = worn
+            .clone()
+            .map(|side| *works.of(side))
+            .fold(f64::INFINITY, f64::min);
+        let of_cycle = worn
+            .map(|side| work(side, from.of_cycle.of(side)))
+            .fold(0.0, f64::max);
+        let known = Sides::from_fn(|side| {
+            let part = least / works.of(side).max(f64::MIN_POSITIVE);
+            let nodes = dose.of(side).iter().zip(taken.of(side));
+            nodes
+                .map(|(dose, taken)| dose + part.min(1.0) * taken)
+                .collect()
         });
         Self {
             formula,
             known,
-            cycles: on_last,
+            cycles: if of_cycle > 0.0 {
+                cycles - least / of_cycle
+            } else {
+                cycles * weight
+            },
         }
     }
 }
 
 impl JumpFrom<'_> {
-    /// Known parts of the doses of a side with a share of those of the jump before, MPa mm.
-    fn known(&self, side: Side, last: LastJump<'_>, share: f64) -> Vec<f64> {
+    /// Doses that a side takes from a share of those of the jump before, MPa mm.
+    fn taken(&self, side: Side, last: LastJump<'_>, share: f64) -> Vec<f64> {
         let in_last = last.cycles / self.laws.rate(side).max(f64::MIN_POSITIVE);
         let nodes = self.dose.of(side).iter().zip(self.depth.of(side));
         let nodes = nodes.zip(*last.rates.of(side));
-        let known = nodes.map(|((dose, depth), rate)| {
-            let layer = self.laws.layer(side, *depth);
-            let in_layer = (in_last * rate).min(dose - layer.start);
-            dose + (share * in_layer).min(layer.end - dose).max(0.0)
+        let taken = nodes.map(|((dose, depth), rate)| {
+            let layers = self.laws.without_faster(side, *depth);
+            let in_layers = (in_last * rate).min(dose - layers.start);
+            (share * in_layers).min(layers.end - dose).max(0.0)
         });
-        known.collect()
+        taken.collect()
     }
 }

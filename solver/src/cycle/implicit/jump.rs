@@ -42,8 +42,6 @@ pub(super) struct JumpSystem {
     system: CondensedSystem,
     rhs: Vec<f64>,
     slopes: Vec<f64>,
-    /// Cycles on the last shapes that each unknown counts.
-    cycles: Vec<f64>,
 }
 
 impl ImplicitJump<'_> {
@@ -123,21 +121,18 @@ impl ImplicitJump<'_> {
         let matrix = system.system.system(order);
         matrix.reset(order);
         let Formulas { known, cycles, .. } = self.formulas;
-        contacts.add_sensitivity(self.bodies, &system.unknowns, -1.0, matrix);
-        system.cycles.clear();
-        let counts = nodes.iter().map(|(side, _)| *cycles.of(*side));
-        system.cycles.extend(counts);
+        contacts.add_sensitivity(self.bodies, &system.unknowns, -cycles, matrix);
         system.rhs.clear();
         system.slopes.clear();
         for (number, (side, node)) in nodes.iter().enumerate() {
             let slope = self.laws.slope(*side, depth.of(*side)[*node]);
-            for (entry, cycles) in matrix.column_mut(number).iter_mut().zip(&system.cycles) {
-                *entry *= slope * cycles;
+            for entry in matrix.column_mut(number) {
+                *entry *= slope;
             }
             *matrix.at(number, number) += 1.0;
             let at = |values: &Sides<Vec<f64>>| values.of(*side)[*node];
             system.slopes.push(slope);
-            let residual = at(dose) - at(known) - cycles.of(*side) * at(of_cycle);
+            let residual = at(dose) - at(known) - cycles * at(of_cycle);
             system.rhs.push(-residual);
         }
         system.system.condense(order);
