@@ -2,6 +2,7 @@
 //! definitions, commands from their help.
 //! `FRETWEAR_WRITE_BOOK=1` writes the pages again.
 
+mod combinations;
 mod wear_laws;
 
 use std::collections::BTreeSet;
@@ -197,6 +198,7 @@ fn reference_pages_are_those_of_the_program() {
         ("fields", fields()),
         ("wear-laws", wear_laws::page()),
         ("columns", columns()),
+        ("combinations", combinations::page()),
         ("commands", commands()),
     ];
     for (name, expected) in pages {
