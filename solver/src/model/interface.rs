@@ -20,7 +20,7 @@ pub enum Tangential {
 }
 
 impl Tangential {
-    /// That of the effects which a plan simulates.
+    /// The form that a plan's simulated effects need.
     pub(crate) fn of(plan: &EffectsPlan) -> Self {
         let on = |effect| plan.simulates(effect);
         match (on(Effect::Friction), on(Effect::StickMemory)) {

@@ -56,7 +56,7 @@ pub(crate) struct JumpControl {
     last: f64,
     error: f64,
     most: u64,
-    /// That before it was shortened.
+    /// The last jump before it was shortened.
     unshortened: f64,
     formula: Formula,
 }

@@ -204,9 +204,9 @@ impl Lattice {
 
 /// The scar of a motion, over the largest amplitude.
 struct Scar {
-    /// Its own amplitude.
+    /// Amplitude of the motion.
     over_largest: f64,
-    /// Half of the length of its scar.
+    /// Half of the length of the scar.
     half_length_over_largest: f64,
 }
 

@@ -28,7 +28,7 @@ pub(crate) struct Convolution {
     transform: PlaneTransform,
     /// Spectrum of the kernel over the number of padded cells, by the wave number along z and then along x.
     spectrum: Vec<f64>,
-    /// That of a field.
+    /// Parity of a field.
     columns: Vec<Complex<f64>>,
 }
 

@@ -70,7 +70,7 @@ pub(crate) struct Place<'a> {
     /// Surfaces with the depths that the window is chosen for; their slopes are those of all depths.
     pub(crate) surfaces: Surfaces<'a>,
     pub(crate) position: PassPosition,
-    /// What the master's nodes wear next, by which they share paths.
+    /// Wear of the master's nodes that comes next, by which they share paths.
     pub(crate) next: NextWorn<'a>,
 }
 

@@ -34,7 +34,7 @@ pub(crate) struct NextWorn<'a> {
 pub(crate) enum Thickness<'a> {
     /// One of all nodes, mm.
     Even(f64),
-    /// Those of the nodes, mm.
+    /// One of each node, mm.
     OfNodes(&'a [f64]),
 }
 

@@ -12,7 +12,7 @@ use crate::sides::Sides;
 /// Most updates of the closed nodes on fixed shapes.
 const MOST_UPDATES: usize = 40;
 
-/// The bodies, the slopes of their surfaces, and what the master's nodes wear next.
+/// The bodies, the slopes of their surfaces, and the wear of the master's nodes that comes next.
 #[derive(Clone, Copy)]
 pub(super) struct Bodies<'a> {
     pub(super) pair: &'a Pair<'a>,
@@ -21,7 +21,7 @@ pub(super) struct Bodies<'a> {
 }
 
 impl<'a> Bodies<'a> {
-    /// Those of depths in mm, whose master wears an indentation in mm next.
+    /// Bodies worn to depths in mm, whose master wears an indentation in mm next.
     pub(super) fn of(
         pair: &'a Pair<'a>,
         slope: &'a Sides<Vec<f64>>,

@@ -39,7 +39,7 @@ pub(super) struct PressureFilter {
 /// A wave of the window.
 #[derive(Debug, Clone, Copy)]
 struct Wave {
-    /// Its number along x, and its index in a spectrum.
+    /// Number along x, and index in a spectrum.
     along: usize,
     index: usize,
     /// Elastic compliance, mm/MPa.
