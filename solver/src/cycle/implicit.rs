@@ -56,8 +56,9 @@ const LARGEST_SKEW: f64 = 0.1;
 /// End of a jump as it is reported.
 struct ReportedEnd {
     record: CycleRecord,
-    /// Cycles up to which nothing else is reported, and `true` if what happens until then may be in detail.
+    /// Cycles up to which nothing else is reported.
     until: u64,
+    /// True if the state then may be reported in detail.
     is_reported: bool,
 }
 
@@ -194,7 +195,7 @@ impl Integrator<'_> {
         let positions = self.cycle_positions(state);
         let starts = self.starts(state, &positions)?;
         let cycles = real_cycles(jump);
-        let bodies = Bodies::of(
+        let mut bodies = Bodies::of(
             &self.pair,
             &self.slope,
             &state.depth,
@@ -203,12 +204,6 @@ impl Integrator<'_> {
         let contacts = &mut self.implicit.contacts;
         let mut first = contacts.doses_on(bodies, &positions, &state.depth, &starts)?;
         let worn_next = self.worn_next(state, laws, cycles, &first);
-        let mut bodies = Bodies::of(
-            &self.pair,
-            &self.slope,
-            &state.depth,
-            state.contact.indentation,
-        );
         let ImplicitJumps { contacts, system } = &mut self.implicit;
         if let Some(worn_next) = &worn_next {
             bodies.next.thickness = Thickness::OfNodes(worn_next);
@@ -216,7 +211,7 @@ impl Integrator<'_> {
         }
         let before = laws.doses(&state.depth);
         let nodes = first.as_ref().map(Vec::len);
-        let last = state.jump.last_implicit(jump);
+        let last = state.jump.last_implicit();
         let formulas = Formulas::new(JumpFrom {
             laws,
             dose: &before,

@@ -5,8 +5,9 @@ use super::surrogate::Scar;
 use crate::cycle::implicit_jumps_are_possible;
 use crate::effects;
 use crate::model::Tangential;
+use crate::number::real_cycles;
 use crate::scene::{Accuracy, Effect, Scene};
-use crate::schedule::jump::implicit::ImplicitWear;
+use crate::schedule::jump::implicit::{ImplicitWear, two_steps};
 use crate::schedule::jump::{Formula, JumpControl};
 use crate::schedule::stroke::Stroke;
 use crate::sides::{Side, Sides};
@@ -47,10 +48,8 @@ impl ImplicitStep {
             *control = before;
             return None;
         }
-        let formula = match control.last_implicit(jump) {
-            Some(_) => Formula::TwoSteps,
-            None => Formula::ImplicitEuler,
-        };
+        let last = control.last_implicit().map(|last| last.cycles);
+        let (formula, _) = two_steps(last, real_cycles(jump));
         Some(Self {
             jump,
             formula,

@@ -1,6 +1,6 @@
 //! Formula of a jump, node by node.
 //!
-//! That of two steps takes a part of the dose from the jump before. Where a fast layer comes to lie open, the dose of the slow one above it
+//! The formula of two steps takes a part of the dose from the jump before. Where a fast layer comes to lie open, the dose of the slow one above it
 //! would dig a hole which no pressure, of one sign, fills again: only the dose since then in the jump before counts, and it wears no more than what is
 //! left above the next faster layer. The shapes at the end take what is lost by that, so that both sides take the work of all cycles.
 
@@ -23,7 +23,7 @@ pub(super) struct JumpFrom<'a> {
     pub(super) depth: &'a Sides<Vec<f64>>,
     /// Cycles of the jump.
     pub(super) cycles: f64,
-    /// The jump before, if the formula of two steps serves.
+    /// The jump before, if it was implicit.
     pub(super) last: Option<LastJump<'a>>,
 }
 
@@ -41,7 +41,7 @@ impl Formulas {
     pub(super) fn new(from: JumpFrom<'_>) -> Self {
         let (dose, cycles) = (from.dose, from.cycles);
         let (formula, weight) = two_steps(from.last.map(|last| last.cycles), cycles);
-        let Some(last) = from.last else {
+        let Some(last) = from.last.filter(|_| formula == Formula::TwoSteps) else {
             return Self {
                 formula,
                 known: dose.clone(),

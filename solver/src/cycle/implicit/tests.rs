@@ -105,12 +105,8 @@ fn doses_of_increments(integrator: &mut Integrator<'_>, state: &CycleState) -> S
         state.contact.indentation,
     );
     let contacts = &mut integrator.implicit.contacts;
-    let placed = contacts.place(bodies, positions, &state.depth, &starts);
-    placed.expect("they are placed");
-    contacts
-        .settle(bodies, &state.depth)
-        .expect("they are solved");
-    contacts.doses(bodies)
+    let doses = contacts.doses_on(bodies, &positions, &state.depth, &starts);
+    doses.expect("they are solved")
 }
 
 fn is_close(a: f64, b: f64, tolerance: f64) -> bool {

@@ -14,8 +14,7 @@ use crate::schedule::stroke::Stroke;
 use crate::sides::{Side, Sides};
 
 /// Allowed error of an implicit jump over that of a computed cycle: where a contact widens, the errors of all jumps have one sign. With 0.5
-/// the lives of the presets' gold at 2 % are 0.3 to 0.4 % off (`verify_implicit_jumps.rs`). With 2 the coarse companions differ so much that
-/// runs restart.
+/// the lives of the presets' gold at 2 % are 0.3 % off (`verify_implicit_jumps.rs`).
 const ALLOWED: f64 = 0.5;
 
 /// Least jump over the cycles done and the tolerance, over that of computed cycles: the iteration converges however fast a layer
@@ -77,12 +76,10 @@ impl JumpControl {
         even_share(target, remaining.max(1))
     }
 
-    /// The last jump for the formula of two steps, if it serves for one of so many cycles.
-    pub(crate) fn last_implicit(&self, jump: u64) -> Option<LastJump<'_>> {
-        let cycles = real_cycles(self.last);
-        let serves = real_cycles(jump) <= MOST_RATIO * cycles;
-        (self.formula != Formula::ComputedCycle && serves).then(|| LastJump {
-            cycles,
+    /// The last jump, if it was implicit.
+    pub(crate) fn last_implicit(&self) -> Option<LastJump<'_>> {
+        (self.formula != Formula::ComputedCycle).then(|| LastJump {
+            cycles: real_cycles(self.last),
             rates: self.rate.as_slices(),
         })
     }
