@@ -75,7 +75,8 @@ pub struct Forecast {
     pub condensations: Sides<u32>,
     /// Increments, in order.
     pub segments: Vec<Segment>,
-    /// Natural logarithm of the cycles at the end over those at which a layer was worn through to one that wears much faster; 0 where none is.
+    /// Natural logarithm of the cycles at the end over those at which a layer was worn through to one that wears much faster; 0 where none is, or
+    /// where all jumps may be implicit, which its edge does not hold back.
     pub fast_layer: f64,
 }
 
@@ -185,11 +186,13 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         is_first = false;
         worn.rebuild(scene, &mut run.condensations);
     }
-    run.fast_layer = edges.course(cycle);
+    if are_implicit.contains(&false) {
+        run.fast_layer = edges.course(cycle);
+    }
     run
 }
 
-/// What bounds the next computed cycle or jump.
+/// Bounds of the next computed cycle or jump.
 #[derive(Clone, Copy)]
 struct StepRange {
     /// Cycles done, and those that must be hit exactly.

@@ -182,7 +182,7 @@ fn left_out(scene: &Scene, restarts_with_layers: bool) -> LeftOut {
     }
 }
 
-/// Least `Forecast::fast_layer` with which runs count as ones that restart. Of the cycles of solved sections those with 1.28 and more restarted, none
+/// Least `Forecast::fast_layer` with which runs of computed cycles count as ones that restart. Of solved sections those with 1.28 and more restarted, none
 /// with 0.97 and less. Some forecasts reach the layer too early, so that five of 30 runs counted that did not restart.
 const LONG_EDGE: f64 = 1.15;
 
