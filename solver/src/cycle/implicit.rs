@@ -83,7 +83,7 @@ impl Integrator<'_> {
         let jump = state
             .jump
             .next_implicit(&self.scene.accuracy, stroke, remaining);
-        if jump <= 1 {
+        if jump <= 1 || !self.saves_work(state, stroke, jump) {
             state.jump = control;
             return Ok(None);
         }
@@ -122,6 +122,12 @@ impl Integrator<'_> {
     fn dose_laws(&self, stroke: Stroke) -> Option<DoseLaws> {
         let laws = laws_of_jumps(self.scene, self.pair.interface.tangential, &self.wear)?;
         (self.heating.is_none() && !stroke.is_groove).then_some(laws)
+    }
+
+    /// Returns `true` if an implicit jump of so many cycles is less work than computed ones, with the cycle for its reported contacts.
+    fn saves_work(&self, state: &CycleState, stroke: Stroke, jump: u64) -> bool {
+        let is_reported_as_is = self.skew(state, stroke) <= LARGEST_SKEW;
+        is_reported_as_is || state.jump.saves_cycles(&self.scene.accuracy, stroke, jump)
     }
 
     /// Pressure skew of a single cycle by the wear that the contact as a whole has had in the last jump.

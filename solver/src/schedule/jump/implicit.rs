@@ -21,6 +21,9 @@ const ALLOWED: f64 = 0.5;
 /// is that opens.
 const LEAST: f64 = 5.0;
 
+/// Least jump over the longest one of a computed cycle where its end needs a computed cycle, too.
+const LEAST_SAVING: f64 = 2.0;
+
 /// Largest jump over the one before for the formula of two steps, which is stable up to 2.4.
 const MOST_RATIO: f64 = 2.1;
 
@@ -74,6 +77,11 @@ impl JumpControl {
         let target = bounds(accuracy, stroke).target(last, self.done);
         self.unshortened = target;
         even_share(target, remaining.max(1))
+    }
+
+    /// Returns `true` if a jump of so many cycles and one computed cycle are less work than computed cycles alone.
+    pub(crate) fn saves_cycles(&self, accuracy: &Accuracy, stroke: Stroke, jump: u64) -> bool {
+        real_cycles(jump) >= LEAST_SAVING * stroke.most(accuracy, self.done)
     }
 
     /// The last jump, if it was implicit.
