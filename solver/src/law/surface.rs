@@ -36,9 +36,12 @@ impl SurfaceWear {
         if plating.is_empty() {
             return base.map(|law| match law {
                 WearLaw::Barwell(law) => Self::ByDose(DoseCurve::Barwell(law)),
-                WearLaw::Power(law) => Self::ByPower {
-                    law,
-                    during: Exposure::default(),
+                WearLaw::Power(law) => match law.as_archard() {
+                    Some(k_over_h_per_mpa) => Self::Law(WearLaw::Archard { k_over_h_per_mpa }),
+                    None => Self::ByPower {
+                        law,
+                        during: Exposure::default(),
+                    },
                 },
                 law => Self::Law(law),
             });

@@ -101,6 +101,18 @@ impl PowerLaw {
         }
     }
 
+    /// The specific wear rate where the law is Archard's: without exponents, by the path of slip; 1/MPa.
+    pub(crate) fn as_archard(&self) -> Option<f64> {
+        let is_one = |exponent: f64| (exponent - 1.0).abs() <= 0.0;
+        let by_path =
+            matches!(self.measure, Measure::SlipTime { speed_exponent } if is_one(speed_exponent));
+        (by_path
+            && is_one(self.exponent)
+            && is_one(self.pressure_exponent)
+            && self.thermal.is_none())
+        .then_some(self.factor)
+    }
+
     /// Returns `true` if it counts repetitions of the load.
     pub fn counts_repetitions(&self) -> bool {
         self.measure == Measure::Repetitions
