@@ -116,15 +116,9 @@ fn bodies_swap_in_the_scenes_found_in_partial_slip() {
 fn bodies_swap_in_the_scenes_found_in_gross_slip() {
     holds_in_found(
         "swapped bodies, found in gross slip",
-        &[8, 82, 100, 106],
+        &[8, 82, 92, 100, 106],
         the_same_upside_down,
     );
-}
-
-#[test]
-#[ignore = "width of the slider's flat off by 4.9 %, the answers state 4.5 %"]
-fn bodies_swap_where_the_estimates_miss() {
-    holds_in_found("swapped bodies, missed", &[92], the_same_upside_down);
 }
 
 #[test]
