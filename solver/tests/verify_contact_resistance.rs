@@ -121,14 +121,20 @@ fn a_worn_contact_has_its_covered_and_its_exposed_part_in_parallel() {
     }
 }
 
-fn a_limit_is_met_at_the_same_cycle(cases: &[(f64, f64)]) {
+/// The limits, mOhm, with a little and half of the base exposed.
+fn limits() -> [f64; 2] {
     let (clean, covered) = clean_and_covered();
-    for &(amplitude, tolerance) in cases {
+    [1.1 * clean, 0.5 * covered]
+}
+
+/// Amplitudes in mm, tolerances and limits.
+fn a_limit_is_met_at_the_same_cycle(cases: &[(f64, f64, &[f64])]) {
+    for &(amplitude, tolerance, limits) in cases {
         let scene = Scene {
             accuracy: Accuracy::from_tolerance(tolerance),
             ..filmed(amplitude, None)
         };
-        for limit in [1.1 * clean, 0.5 * covered] {
+        for &limit in limits {
             let stopped = limited(scene.clone(), &[limit], &[]);
             let (stopped, _) = solve(&stopped).expect("the scene can be solved");
             assert_eq!(stopped.outcome, Outcome::StopCondition);
@@ -149,7 +155,8 @@ fn a_limit_is_met_at_the_same_cycle(cases: &[(f64, f64)]) {
 
 #[test]
 fn a_limit_is_met_at_the_same_cycle_whether_the_run_stops_or_goes_on() {
-    a_limit_is_met_at_the_same_cycle(&AMPLITUDES.map(|amplitude| (amplitude, 0.02)));
+    let ([short, long], [little, half]) = (AMPLITUDES, limits());
+    a_limit_is_met_at_the_same_cycle(&[(short, 0.02, &[half]), (long, 0.02, &[little])]);
 }
 
 mod long {
@@ -158,7 +165,8 @@ mod long {
     #[test]
     #[ignore = "long: takes 25 s"]
     fn a_limit_is_met_at_the_same_cycle_at_a_small_tolerance() {
-        a_limit_is_met_at_the_same_cycle(&[(AMPLITUDES[0], 0.005)]);
+        let ([short, long], limits) = (AMPLITUDES, limits());
+        a_limit_is_met_at_the_same_cycle(&[(short, 0.005, &limits), (long, 0.02, &limits)]);
     }
 }
 

@@ -265,8 +265,7 @@ fn changing_friction_goes_through_the_blocks_of_a_mission() {
 /// the last the later ones. So the coefficient hardly changes within them.
 #[test]
 fn repetitions_done_together_meet_the_coefficients_of_their_cycles() {
-    const REPEAT: u64 = 60;
-    let mission = vibrated_and_wiped(REPEAT, None);
+    let mission = vibrated_and_wiped(30, None);
     let end = f64::from(u32::try_from(mission.cycles).expect("few cycles"));
     for (name, friction) in [
         ("rising", by_cycle(&[(0.3 * end, 0.1), (end, 0.9)])),

@@ -34,6 +34,20 @@ pub(crate) fn wipe(rates: Sides<f64>) -> Scene {
     scene
 }
 
+/// Shortens the wipe to 0.4 mm.
+pub(crate) fn shorten(scene: &mut Scene) {
+    scene.motion = Motion::Reciprocating {
+        amplitude_mm: 0.2,
+        period_s: 1.0,
+    };
+}
+
+/// Zones that the contact outgrows.
+pub(crate) fn in_narrow_zones(scene: &mut Scene) {
+    scene.accuracy.tuning.zone_width = 0.5;
+    scene.accuracy.tuning.fewest_zone_nodes = 20.0;
+}
+
 /// A scene in zones and on a single mesh.
 fn both(scene: &Scene) -> [(Summary, Recorder); 2] {
     let mut single = scene.clone();
@@ -129,9 +143,9 @@ fn a_contact_that_outgrows_its_zones_gets_wider_ones() {
         slider: RATE,
         receptacle: 0.0,
     });
+    shorten(&mut scene);
     let (expected, _) = solve(&scene).expect("the wipe is solved");
-    scene.accuracy.tuning.zone_width = 0.5;
-    scene.accuracy.tuning.fewest_zone_nodes = 20.0;
+    in_narrow_zones(&mut scene);
     let (found, _) = solve(&scene).expect("the wipe is solved");
     println!(
         "zones of half the contact: {} relocations",

@@ -242,7 +242,7 @@ fn a_mission_states_its_error() {
 #[test]
 fn the_work_of_a_mission_is_foreseen() {
     for (name, slider) in [("pad", None), ("pad and tip", Some(0.1 * RATE))] {
-        let scene = vibrated_and_wiped(60, slider);
+        let scene = vibrated_and_wiped(30, slider);
         let layout = Layout::of(&scene).expect("it can be meshed");
         let expected = forecast(&scene, &layout);
         let (done, _) = solve(&scene).expect("the mission can be solved");

@@ -121,7 +121,7 @@ fn a_mixed_mission_resumes_to_the_same_bits() {
 /// The cost model follows the rounds of a mixed mission.
 #[test]
 fn the_work_of_a_mixed_mission_is_foreseen() {
-    let scene = mixed(vibrated_and_wiped(60, Some(0.1 * RATE)));
+    let scene = mixed(vibrated_and_wiped(30, Some(0.1 * RATE)));
     let layout = Layout::of(&scene).expect("it can be meshed");
     let expected = forecast(&scene, &layout).increments();
     let (done, _) = solve(&scene).expect("the mission can be solved");

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::verification::recorder::Recorder;
 use crate::verification::scenes::{fuzz_button, mccoll};
-use crate::verification::verify_long_wipe::{RATE, wipe};
+use crate::verification::verify_long_wipe::{RATE, in_narrow_zones, shorten, wipe};
 use crate::verification::verify_mission::vibrated_and_wiped;
 use solver::SolveError;
 use solver::checkpoint::{Checkpoint, CheckpointMismatch};
@@ -119,13 +119,8 @@ fn a_sprung_run_resumes_to_the_same_bits() {
 }
 
 /// The zones were widened in cycle 5 and later, which the checkpoint records.
-fn a_run_in_zones_resumes(cycles: u64, times: usize) {
-    let mut scene = wipe(Sides {
-        slider: RATE,
-        receptacle: 0.0,
-    });
-    scene.accuracy.tuning.zone_width = 0.5;
-    scene.accuracy.tuning.fewest_zone_nodes = 20.0;
+fn a_run_in_zones_resumes(mut scene: Scene, cycles: u64, times: usize) {
+    in_narrow_zones(&mut scene);
     scene.cycles = cycles;
     scene.output.snapshots_at_cycles = vec![4, cycles];
     scene.output.fields = true;
@@ -133,9 +128,18 @@ fn a_run_in_zones_resumes(cycles: u64, times: usize) {
     assert!(summary.resolution.relocations >= 2, "{summary:?}");
 }
 
+fn worn_tip() -> Scene {
+    wipe(Sides {
+        slider: RATE,
+        receptacle: 0.0,
+    })
+}
+
 #[test]
 fn a_run_in_zones_resumes_to_the_same_bits() {
-    a_run_in_zones_resumes(10, 2);
+    let mut scene = worn_tip();
+    shorten(&mut scene);
+    a_run_in_zones_resumes(scene, 10, 2);
 }
 
 #[test]
@@ -309,6 +313,6 @@ mod long {
     #[test]
     #[ignore = "long: takes 60 s"]
     fn a_run_in_zones_resumes_to_the_same_bits() {
-        super::a_run_in_zones_resumes(20, 7);
+        super::a_run_in_zones_resumes(super::worn_tip(), 20, 7);
     }
 }

@@ -62,7 +62,7 @@ const SIDES: [(&str, &[Side]); 3] = [
     ("receptacle wears", &[Side::Receptacle]),
 ];
 
-/// Each course in each stroke, and each side in one of them.
+/// Each course in each stroke, and each side in one of them; sums hold at any tolerance.
 #[test]
 fn doses_of_barwells_law_add_up_to_the_load_times_its_path() {
     let mut sides = SIDES.into_iter().cycle();
@@ -70,7 +70,9 @@ fn doses_of_barwells_law_add_up_to_the_load_times_its_path() {
         for (stroke, cycles) in [("short", SHORT), ("long", LONG)] {
             let (wear, wearing) = sides.next().expect("a cycle has no end");
             let name = format!("{course}, {stroke} stroke, {wear}");
-            check_dose(&name, &scene(cycles, WearLaw::Barwell(law), wearing), law);
+            let mut scene = scene(cycles, WearLaw::Barwell(law), wearing);
+            scene.accuracy = Accuracy::from_tolerance(0.1);
+            check_dose(&name, &scene, law);
         }
     }
 }
@@ -119,18 +121,18 @@ fn a_decelerating_course_ends_while_the_run_goes_on() {
     }
 }
 
+/// Each course in one stroke.
 #[test]
 fn barwells_law_does_not_depend_on_increments_and_jumps() {
-    for (course, law) in COURSES.map(|(name, course)| (name, WearLaw::Barwell(barwell(course)))) {
-        check_refinement(
-            &format!("Barwell, {course}, long stroke"),
-            &scene(LONG, law, &Side::BOTH[1..]),
-        );
-        check_refinement(
-            &format!("Barwell, {course}, both wear"),
-            &scene(SHORT, law, &Side::BOTH),
-        );
-    }
+    let [decelerating, accelerating] = COURSES.map(|(_, course)| WearLaw::Barwell(barwell(course)));
+    check_refinement(
+        "Barwell, decelerating, long stroke",
+        &scene(LONG, decelerating, &Side::BOTH[1..]),
+    );
+    check_refinement(
+        "Barwell, accelerating, both wear",
+        &scene(SHORT, accelerating, &Side::BOTH),
+    );
 }
 
 #[test]
@@ -156,6 +158,7 @@ fn runs_by_barwells_law_resume_to_the_same_bits() {
     for (course, law) in COURSES.map(|(name, course)| (name, WearLaw::Barwell(barwell(course)))) {
         for (stroke, (amplitude, cycles)) in [("short", (0.004, 1_000)), ("long", (0.1, 100))] {
             let mut scene = scene((amplitude, cycles), law, &Side::BOTH);
+            scene.accuracy = Accuracy::from_tolerance(0.1);
             scene.output.snapshots_at_cycles = vec![cycles / 2, cycles];
             resumes_to_the_same_bits(&format!("Barwell, {course}, {stroke} stroke"), &scene, 2);
         }
@@ -164,6 +167,23 @@ fn runs_by_barwells_law_resume_to_the_same_bits() {
 
 mod long {
     use super::*;
+
+    #[test]
+    #[ignore = "long: takes 15 s"]
+    fn barwells_law_does_not_depend_on_increments_and_jumps() {
+        for (course, law) in COURSES.map(|(name, course)| (name, WearLaw::Barwell(barwell(course))))
+        {
+            for (sides, cycles, wearing) in [
+                ("receptacle wears", LONG, &Side::BOTH[1..]),
+                ("both wear", SHORT, &Side::BOTH),
+            ] {
+                check_refinement(
+                    &format!("Barwell, {course}, {sides}"),
+                    &scene(cycles, law, wearing),
+                );
+            }
+        }
+    }
 
     #[test]
     #[ignore = "long: takes 55 s"]
