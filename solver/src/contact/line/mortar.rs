@@ -128,7 +128,8 @@ impl Coupling {
         let mut j = next.clamp(1, master.x.len() - 1);
         let mut left = a;
         while left < b {
-            let last = j == master.x.len() - 1;
+            // As the support is laid out: sums and differences of places differ by round-off.
+            let last = j == master.x.len() - 1 || master.x[j] >= b - offset;
             let right = if last { b } else { b.min(master.x[j] + offset) };
             if right > left {
                 self.integrate_segment(pair, offset, element, j - 1, left, right);

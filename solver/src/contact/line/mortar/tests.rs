@@ -69,6 +69,28 @@ fn averages_reproduce_linear_functions_at_any_position() {
     }
 }
 
+/// Nodes of both meshes coincide to round-off at the ends of a row's support.
+#[test]
+fn coinciding_nodes_are_coupled_at_any_position() {
+    let even = |n: i32| (-n..=n).map(|i| 0.1 * f64::from(i)).collect();
+    let operators = Operators {
+        slider: body(even(4), Profile::Arc { radius: 10.0 }),
+        receptacle: body(even(8), Profile::Flat),
+    };
+    let mut coupling = Coupling::default();
+    for slave in Side::BOTH {
+        let pair = pair(&operators, slave);
+        for slider_x in (-60..=60).map(|i| 0.01 * f64::from(i)) {
+            let covered = covered(&pair, slider_x);
+            for i in covered.0..covered.1 {
+                coupling.integrate(&pair, slider_x, i, i + 1);
+                let sum: f64 = coupling.dual_row(i).1.iter().sum();
+                assert!((sum - 1.0).abs() < 1e-12, "{slider_x} {i}: {sum}");
+            }
+        }
+    }
+}
+
 #[test]
 fn transfers_keep_the_area() {
     let operators = bodies();
