@@ -1,6 +1,7 @@
 //! Constitutive laws. A law knows no mesh: it takes a local state and returns a value with its derivatives.
 
 pub mod dose;
+pub(crate) mod dose_laws;
 pub mod elastic;
 pub mod friction;
 pub(crate) mod heating;

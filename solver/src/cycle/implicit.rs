@@ -20,9 +20,7 @@
 mod attempts;
 mod buffers;
 mod contacts;
-mod dose_laws;
 mod end;
-mod formulas;
 mod jump;
 mod positions;
 #[cfg(test)]
@@ -31,21 +29,21 @@ mod tests;
 use super::attempts::CycleAttempts;
 use super::{CycleError, CycleRecord, CycleState, IncrementNumber, Integrator, WarmStarts};
 use crate::contact::{ContactError, Thickness};
+use crate::law::dose_laws::DoseLaws;
 use crate::law::surface::{self, SurfaceWear};
 use crate::model::Tangential;
 use crate::number::real_cycles;
 use crate::scene::{Motion, Scene};
 use crate::schedule::attempts::{Attempts, longest_accepted_jump};
 use crate::schedule::increments;
+use crate::schedule::jump::implicit::formulas::{Formulas, JumpFrom, LastDoses};
 use crate::schedule::step::Step;
 use crate::schedule::stroke::Stroke;
 use crate::sides::{Side, Sides};
 use attempts::JumpAttempts;
 pub(super) use buffers::ImplicitJumps;
 use contacts::Bodies;
-use dose_laws::DoseLaws;
 use end::End;
-use formulas::{Formulas, JumpFrom};
 use jump::ImplicitJump;
 use positions::{CyclePosition, positions};
 
@@ -218,14 +216,14 @@ impl Integrator<'_> {
         let before = laws.doses(&state.depth);
         let nodes = first.as_ref().map(Vec::len);
         let last = state.jump.last_implicit();
-        let formulas = Formulas::new(JumpFrom {
+        let formulas = Formulas::new(&JumpFrom {
             laws,
             dose: &before,
             of_cycle: &first,
-            widths: self.pair.operators.as_ref().map(|body| &body.widths[..]),
+            sizes: self.pair.operators.as_ref().map(|body| &body.widths[..]),
             depth: &state.depth,
             cycles,
-            last: last.filter(|last| last.is_of(nodes)),
+            last: last.and_then(|last| LastDoses::of(last, laws, nodes)),
         });
         let predicted = Sides::from_fn(|side| {
             let nodes = before.of(side).iter().zip(first.of(side));

@@ -1,8 +1,8 @@
 //! Attempts of a jump that is implicit in the worn shapes, and the way back to the state before it.
 
-use super::dose_laws::DoseLaws;
 use crate::contact::{ContactError, Work};
 use crate::cycle::{CycleRecord, CycleState, Integrator};
+use crate::law::dose_laws::DoseLaws;
 use crate::number::real_cycles;
 use crate::schedule::attempts::{Attempts, Remedy};
 use crate::schedule::stroke::Stroke;

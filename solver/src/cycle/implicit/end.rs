@@ -1,13 +1,13 @@
 //! End of an implicit jump: the next state and the record of its last cycle.
 
 use super::contacts::{Bodies, settle};
-use super::dose_laws::DoseLaws;
 use super::jump::JumpEnd;
 use super::positions::CyclePosition;
 use crate::contact::{ContactError, ContactState, LinearisedContact, PassPosition, slopes_of_both};
 use crate::cycle::{
     CycleRecord, CycleState, IncrementNumber, Integrator, Neutral, Skew, WarmStarts, wear_limit,
 };
+use crate::law::dose_laws::DoseLaws;
 use crate::number::{real, real_cycles};
 use crate::schedule::increments::Position;
 use crate::schedule::jump::Formula;

@@ -6,10 +6,10 @@
 //! beyond an interface the latter may be hundreds of times as deep.
 
 use super::contacts::{Bodies, Contacts, not_converged};
-use super::dose_laws::DoseLaws;
-use super::formulas::Formulas;
 use crate::contact::{ContactError, DoseUnknowns};
+use crate::law::dose_laws::DoseLaws;
 use crate::linear::CondensedSystem;
+use crate::schedule::jump::implicit::formulas::Formulas;
 use crate::sides::{Side, Sides};
 
 /// Most iterations of a jump. Arbitrary: those that converge take three to ten.

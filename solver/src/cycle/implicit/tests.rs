@@ -220,11 +220,11 @@ fn a_jump_ends_where_its_doses_are_those_of_its_last_shapes() {
     let cycles = 4_000.0;
     let unworn = laws.doses(&state.depth);
     let of_cycle = contacts.doses(bodies);
-    let formulas = Formulas::new(JumpFrom {
+    let formulas = Formulas::new(&JumpFrom {
         laws: &laws,
         dose: &unworn,
         of_cycle: &of_cycle,
-        widths: integrator
+        sizes: integrator
             .pair
             .operators
             .as_ref()

@@ -6,12 +6,14 @@
 //! the jump for the Euler step, where r = d1, and of second order for the formula of two steps. No leading-edge step bounds the
 //! jump.
 
+pub(crate) mod formulas;
+
 use super::formula::Formula;
 use super::{JumpControl, LEAST_OF_DONE, REJECTED, SHORTEST_REJECTED, SMALLEST_ERROR, even_share};
 use crate::number::real_cycles;
 use crate::scene::Accuracy;
 use crate::schedule::stroke::Stroke;
-use crate::sides::{Side, Sides};
+use crate::sides::Sides;
 
 /// Allowed error of an implicit jump over that of a computed cycle: where a contact widens, the errors of all jumps have one sign. With 0.5
 /// the lives of the presets' gold at 2 % are 0.3 % off (`verify_implicit_jumps.rs`).
@@ -196,14 +198,5 @@ pub(crate) fn two_steps(last: Option<f64>, cycles: f64) -> (Formula, f64) {
             let ratio = cycles / last;
             (Formula::TwoSteps, (1.0 + ratio) / (1.0 + 2.0 * ratio))
         }
-    }
-}
-
-impl LastJump<'_> {
-    /// Returns `true` if it has a rate for each node of both sides.
-    pub(crate) fn is_of(&self, nodes: Sides<usize>) -> bool {
-        Side::BOTH
-            .iter()
-            .all(|side| self.rates.of(*side).len() == *nodes.of(*side))
     }
 }
