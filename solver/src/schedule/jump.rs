@@ -28,7 +28,7 @@ const REJECTED: f64 = 3.0;
 
 /// Shortest jump over the cycles done that is not accepted: a shorter one is no large part of the wear, and nodes that pass an interface
 /// one by one leave an error of their own in jumps of any length. Arbitrary.
-const SHORTEST_REJECTED: f64 = 0.01;
+pub(crate) const SHORTEST_REJECTED: f64 = 0.01;
 
 /// Least jump over the cycles done and the tolerance. Where a soft layer comes to be exposed under a hard one, the wear of the nodes at its
 /// edge changes in jumps of any length, and the error does not fall with the jump. Measured in eight random plated lives to base metal at 2 %:

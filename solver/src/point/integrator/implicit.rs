@@ -3,7 +3,7 @@
 //! The unknowns are the doses D1 of all cells of both surfaces at the end of a jump of n cycles,
 //!   D1 = known + n b d(G(D1)),
 //! with the depth h = G(D) of a dose and the doses d(h) of one cycle on fixed shapes; b and the known part are those of Euler's formula or of
-//! the backward differentiation formula of second order. Nothing wears within a cycle, so that no leading-edge step bounds a jump. d is a sum
+//! the backward differentiation formula of second order (`schedule::jump::implicit::formulas`), after a computed cycle as well. Nothing wears within a cycle, so that no leading-edge step bounds a jump. d is a sum
 //! over positions of the slider (`positions`), whose pressures are solved for together with the doses (`pressures`): one convex minimum. Each
 //! cell has its own pressure at each position, so that no combination of depths is hidden from them.
 //!
@@ -25,20 +25,15 @@ mod surface;
 mod tests;
 
 use super::super::error::PointError;
-use super::super::jump::rejected_implicit;
+use super::super::jump::{laws_of_implicit_jumps, rejected_implicit};
 use super::super::point_state::PointState;
 use super::super::record::PointCycle;
 use super::super::state::State;
 use super::PointIntegrator;
-use crate::closed_form::{CyclePath, SlipRegime};
-use crate::number::real_cycles;
+use crate::law::dose_laws::DoseLaws;
 use crate::schedule::attempts::{Attempts, Remedy, longest_accepted_jump};
 use jump::Jumped;
 pub(super) use pressures::CyclePressures;
-
-/// Least implicit jump over that of a computed cycle. Arbitrary: one of them takes less work than a computed cycle as long as it wears less than
-/// some indentations, and longer ones are made where computed ones are bounded to less.
-const LEAST_GAIN: f64 = 1.0;
 
 impl PointIntegrator {
     /// Makes a jump that is implicit in the worn shapes, up to a number of cycles and as long as the control allows; `None` where
@@ -51,14 +46,14 @@ impl PointIntegrator {
         state: &mut PointState,
         remaining: u64,
     ) -> Result<Option<PointCycle>, PointError> {
-        if !self.jumps_implicitly(state) {
+        let Some(laws) = self.dose_laws(state) else {
             return Ok(None);
-        }
+        };
         let (control, before) = (state.control, state.sliding.clone());
         let accuracy = &self.scene.accuracy;
         let computed = control.next(accuracy, state.done, remaining, self.step(state));
         let jump = state.control.next_implicit(accuracy, state.done, remaining);
-        if real_cycles(jump) < LEAST_GAIN * real_cycles(computed) {
+        if jump < computed {
             state.control = control;
             return Ok(None);
         }
@@ -66,6 +61,7 @@ impl PointIntegrator {
         let mut attempts = ImplicitAttempts {
             integrator: self,
             state,
+            laws,
         };
         let Ok((jump, jumped)) = longest_accepted_jump(&mut attempts, jump) else {
             let work = state.sliding.work;
@@ -78,19 +74,11 @@ impl PointIntegrator {
         Ok(Some(self.end_cycle(state, jump, error, work)))
     }
 
-    /// Returns `true` if jumps may be implicit.
-    fn jumps_implicitly(&self, state: &PointState) -> bool {
-        let scene = &self.scene;
-        let wears = scene.bodies.as_ref().map(|body| body.wear.is_some());
-        scene.accuracy.implicit_jumps
-            && !self.is_mission
-            && scene.slip == SlipRegime::Gross
-            && scene.path == CyclePath::ToAndFro
-            && scene.spring_n_per_mm <= 0.0
-            && scene.accuracy.cycle_jump.is_none()
-            && state.sliding.lattice.amplitude > 0
-            && (wears.slider || wears.receptacle)
-            && state.done > 0
+    /// The laws of a contact whose jumps may be implicit.
+    fn dose_laws(&self, state: &PointState) -> Option<DoseLaws> {
+        let is_simple = !self.is_mission && state.sliding.lattice.amplitude > 0 && state.done > 0;
+        let laws = laws_of_implicit_jumps(&self.scene);
+        laws.filter(|_| is_simple)
     }
 }
 
@@ -98,6 +86,7 @@ impl PointIntegrator {
 struct ImplicitAttempts<'a> {
     integrator: &'a mut PointIntegrator,
     state: &'a mut PointState,
+    laws: DoseLaws,
 }
 
 impl Attempts for ImplicitAttempts<'_> {
@@ -107,7 +96,7 @@ impl Attempts for ImplicitAttempts<'_> {
 
     fn attempt(&mut self, jump: u64) -> Result<Jumped, PointError> {
         let done = self.state.done;
-        let jumped = self.integrator.jump(self.state, jump);
+        let jumped = self.integrator.jump(self.state, &self.laws, jump);
         jumped.map_err(|error| error.at(done))
     }
 

@@ -134,6 +134,7 @@ fn bounds(accuracy: &Accuracy, stroke: Stroke) -> ImplicitBounds {
         allowed: ALLOWED * stroke.largest_error(accuracy) / finer,
         least: LEAST * LEAST_OF_DONE * accuracy.tolerance,
         most: accuracy.tuning.jump_of_done,
+        shortest_rejected: SHORTEST_REJECTED,
         finer,
         change: (least, most.powf(1.0 / finer)),
     }
@@ -147,6 +148,8 @@ pub(crate) struct ImplicitBounds {
     /// Least and largest jump over the cycles done, times the factor on the number of jumps.
     pub(crate) least: f64,
     pub(crate) most: f64,
+    /// Shortest jump over the cycles done that is not accepted.
+    pub(crate) shortest_rejected: f64,
     /// That factor.
     pub(crate) finer: f64,
     /// Least and largest jump over the one before.
@@ -185,7 +188,7 @@ impl ImplicitBounds {
     /// A smaller jump after so many cycles in place of one whose error is too large; `None` if it is accepted.
     pub(crate) fn rejected(&self, error: f64, jump: u64, done: u64) -> Option<u64> {
         let is_rejected = error > REJECTED * self.allowed;
-        let is_long = real_cycles(jump) > SHORTEST_REJECTED * real_cycles(done);
+        let is_long = real_cycles(jump) > self.shortest_rejected * real_cycles(done);
         (is_rejected && is_long && jump > 1).then(|| jump.div_ceil(super::CUT))
     }
 }

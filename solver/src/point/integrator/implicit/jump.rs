@@ -5,6 +5,7 @@ use super::positions::positions;
 use super::pressures::{CyclePressures, JumpSurfaces};
 use super::surface::JumpSurface;
 use crate::contact::area::AreaError;
+use crate::law::dose_laws::DoseLaws;
 use crate::number::real_cycles;
 use crate::point::error::PointError;
 use crate::point::field::Field;
@@ -15,7 +16,7 @@ use crate::point::state::State;
 use crate::point::surface::Surface;
 use crate::point::window::widen;
 use crate::schedule::jump::Formula;
-use crate::schedule::jump::implicit::two_steps;
+use crate::schedule::jump::implicit::formulas::{Formulas, JumpFrom, LastDoses};
 use crate::sides::{Side, Sides};
 
 /// Formula and estimated error of a jump.
@@ -30,10 +31,15 @@ type Doses = Sides<Vec<f64>>;
 
 impl PointIntegrator {
     /// Makes a jump on a window that holds all contacts.
-    pub(super) fn jump(&mut self, state: &mut PointState, jump: u64) -> Result<Jumped, PointError> {
+    pub(super) fn jump(
+        &mut self,
+        state: &mut PointState,
+        laws: &DoseLaws,
+        jump: u64,
+    ) -> Result<Jumped, PointError> {
         loop {
             let mut pressure = self.place(state);
-            let found = self.jump_in_window(state, &mut pressure, jump);
+            let found = self.jump_in_window(state, laws, &mut pressure, jump);
             match found {
                 Err(AreaError::ReachesEdge { .. }) => {
                     take_all(&mut state.sliding, &pressure);
@@ -51,7 +57,8 @@ impl PointIntegrator {
         let pressures = match self.pressures.take() {
             Some(pressures) if pressures.cells == cells => self.pressures.insert(pressures),
             _ => {
-                let pressures = CyclePressures::new(cells, self.scene.modulus());
+                let pressures =
+                    CyclePressures::new(cells, self.scene.modulus());
                 self.pressures.insert(pressures)
             }
         };
@@ -80,6 +87,7 @@ impl PointIntegrator {
     fn jump_in_window(
         &mut self,
         state: &mut PointState,
+        laws: &DoseLaws,
         pressure: &mut [f64],
         jump: u64,
     ) -> Result<Jumped, AreaError> {
@@ -94,26 +102,38 @@ impl PointIntegrator {
         let mut iterations = pressures.solve(force_n, &mut first, pressure)?;
         let first = first.map(|surface| surface.of_cycle);
         let cycles = real_cycles(jump);
-        let last = state.control.last_implicit();
-        let (formula, weight) = two_steps(last, cycles);
-        let known = Sides::from_fn(|side| {
-            let part = cycles * (1.0 - weight);
-            let places = before.of(side).iter().zip(surfaces.of(side).pace());
-            places.map(|(dose, pace)| dose + part * pace).collect()
+        let last = state.control.last_jump();
+        let sizes = first.as_ref().map(|places| vec![1.0; places.len()]);
+        let Formulas {
+            formula,
+            known,
+            cycles: on_last,
+        } = Formulas::new(&JumpFrom {
+            laws,
+            dose: &before,
+            of_cycle: &first,
+            sizes: sizes.as_slices(),
+            depth: &depths(surfaces, &before),
+            cycles,
+            last: last.map(|last| last_doses(surfaces, last)),
         });
-        let mut end = at_the_end(surfaces, known, cycles * weight);
+        let mut end = at_the_end(surfaces, known, on_last);
         iterations += pressures.solve(force_n, &mut end, pressure)?;
         let error = error(surfaces, &before, &first, &end, cycles);
         let dose = end.map(|surface| surface.dose);
-        let (cells, count) = (pressures.cells, pressures.cells.count());
-        let positions = &pressures.positions;
-        let sections = positions.iter().zip(pressure.chunks_exact(count));
-        let of_section = sections.map(|(at, p)| at.path * section_integral(&cells, p));
+        let count = pressures.cells.count();
+        let positions = pressures.positions.len();
+        let section_work = Sides::from_fn(|side| {
+            let doses = dose.of(side).iter().zip(before.of(side));
+            let added: Vec<f64> = doses.map(|(after, before)| after - before).collect();
+            let cells = surfaces.of(side).dose.cells(state.sliding.lattice.size_mm);
+            section_integral(&cells, &added)
+        });
         let sliding = &mut state.sliding;
-        sliding.section_work += cycles * of_section.sum::<f64>();
+        sliding.section_work += 0.5 * (section_work.slider + section_work.receptacle);
         sliding.sliding_work += cycles * self.scene.path_mm() * force_n;
-        sliding.work.0 += 2 * positions.len();
-        sliding.work.1 += iterations * positions.len();
+        sliding.work.0 += 2 * positions;
+        sliding.work.1 += iterations * positions;
         for (side, dose) in [
             (Side::Slider, dose.slider),
             (Side::Receptacle, dose.receptacle),
@@ -138,7 +158,8 @@ fn at_the_end(surfaces: &Sides<Surface>, known: Doses, cycles: f64) -> JumpSurfa
     }
 }
 
-/// Estimated relative error of a jump (`schedule::jump::implicit`), from the doses before it, and those of one cycle before it and at its end.
+/// Estimated relative error of a jump (`schedule::jump::implicit`), from the doses before it, and those of one cycle before it and at its end. Where
+/// a fast layer opens, doses of the slow one above count by its rate.
 fn error(
     surfaces: &Sides<Surface>,
     before: &Doses,
@@ -146,18 +167,43 @@ fn error(
     end: &JumpSurfaces<'_>,
     cycles: f64,
 ) -> f64 {
-    let (mut total, mut error) = (0.0, 0.0);
+    let (mut worn, mut error) = (0.0, 0.0);
     for side in Side::BOTH {
         let (surface, end) = (surfaces.of(side), end.of(side));
         let ends = first.of(side).iter().zip(&end.of_cycle);
         let doses = before.of(side).iter().zip(&end.dose);
-        for ((before, dose), (first, last)) in doses.zip(ends).filter(|((a, b), _)| b > a) {
-            let (rate, mean) = (surface.rate_at(*dose), (dose - before) / cycles);
-            total += rate * mean;
-            error += rate * (mean - 0.5 * (first + last)).abs();
+        for ((from, to), (first, last)) in doses.zip(ends).filter(|((a, b), _)| b > a) {
+            let rate = surface.rate_at(*from).min(surface.rate_at(*to));
+            worn += (surface.depth_mm(*to) - surface.depth_mm(*from)) / cycles;
+            error += rate * ((to - from) / cycles - 0.5 * (first + last)).abs();
         }
     }
-    if total > 0.0 { error / total } else { 0.0 }
+    if worn > 0.0 { error / worn } else { 0.0 }
+}
+
+/// Depths of doses on both surfaces, mm.
+fn depths(surfaces: &Sides<Surface>, dose: &Doses) -> Sides<Vec<f64>> {
+    Sides::from_fn(|side| {
+        let surface = surfaces.of(side);
+        let doses = dose.of(side).iter();
+        doses.map(|dose| surface.depth_mm(*dose)).collect()
+    })
+}
+
+/// Doses of a jump before of a number of cycles.
+fn last_doses(surfaces: &Sides<Surface>, cycles: f64) -> LastDoses {
+    let of_side = |surface: &Surface| {
+        let mut doses: Vec<f64> = surface.pace().to_vec();
+        add_mirrored(&mut doses);
+        for dose in &mut doses {
+            *dose *= 0.5 * cycles;
+        }
+        doses
+    };
+    LastDoses {
+        cycles,
+        dose: surfaces.as_ref().map(of_side),
+    }
 }
 
 /// Doses of a surface, the mean with the mirrored ones.

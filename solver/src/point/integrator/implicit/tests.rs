@@ -1,11 +1,12 @@
 use super::pressures::JumpSurfaces;
 use super::surface::JumpSurface;
 use super::*;
-use crate::closed_form::{PointAccuracy, PointBody, PointScene};
+use crate::closed_form::{CyclePath, PointAccuracy, PointBody, PointScene, SlipRegime};
 use crate::law::elastic::Elastic;
 use crate::law::plating::Layer;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::WearLaw;
+use crate::number::real_cycles;
 use crate::point::motions::PointMotions;
 use crate::sides::{Side, Sides};
 
@@ -55,6 +56,11 @@ fn begin(scene: &PointScene) -> (PointIntegrator, PointState) {
     (integrator, state)
 }
 
+fn laws(scene: &PointScene) -> DoseLaws {
+    let wear = scene.bodies.as_ref().map(|body| body.wear);
+    DoseLaws::of(&wear).expect("both wear by dose")
+}
+
 fn doses(state: &PointState) -> Sides<Vec<f64>> {
     let surfaces = state.sliding.surfaces.as_ref();
     surfaces.map(|surface| surface.dose.values.clone())
@@ -73,7 +79,9 @@ fn a_jump_of_one_cycle_is_a_computed_one() {
         .compute_cycle(&mut computed, 1)
         .expect("it slides");
     let (mut integrator, mut state) = begin(&scene);
-    integrator.jump(&mut state, 1).expect("it converges");
+    integrator
+        .jump(&mut state, &laws(&scene), 1)
+        .expect("it converges");
     let (found, expected) = (doses(&state), doses(&computed));
     // Increments spread the doses of the receptacle evenly over the cells that they pass.
     let off = Sides::from_fn(|side| apart(found.of(side), expected.of(side)));
@@ -87,11 +95,11 @@ fn missions_and_contacts_that_are_not_switched_are_computed_by_cycles() {
     let mut scene = scene(1e-12);
     let (mut integrator, mut state) = begin(&scene);
     integrator.compute_cycle(&mut state, 1).expect("it slides");
-    assert!(integrator.jumps_implicitly(&state));
+    assert!(integrator.dose_laws(&state).is_some());
     integrator.is_mission = true;
-    assert!(!integrator.jumps_implicitly(&state));
+    assert!(integrator.dose_laws(&state).is_none());
     scene.accuracy.implicit_jumps = false;
-    assert!(!begin(&scene).0.jumps_implicitly(&state));
+    assert!(begin(&scene).0.dose_laws(&state).is_none());
 }
 
 #[test]
@@ -99,7 +107,9 @@ fn a_jump_ends_where_its_doses_are_those_of_its_last_shapes() {
     let scene = scene(1e-8);
     let (mut integrator, mut state) = begin(&scene);
     let cycles = 350;
-    integrator.jump(&mut state, cycles).expect("it converges");
+    integrator
+        .jump(&mut state, &laws(&scene), cycles)
+        .expect("it converges");
     let dose = doses(&state);
     let deepest = state.sliding.surfaces.slider.depths_mm();
     let deepest = deepest
