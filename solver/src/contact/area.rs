@@ -16,7 +16,6 @@ mod tangential;
 mod transform;
 
 pub use cells::Cells;
-pub(crate) use convergence::Convergence;
 pub(crate) use convolution::{Convolution, Parity};
 pub use error::AreaError;
 pub(crate) use kernel::{ShearCompliance, normal_influence};

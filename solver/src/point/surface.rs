@@ -69,6 +69,21 @@ impl Surface {
         self.wear.map_or(0.0, |wear| wear.depth(equivalent))
     }
 
+    /// Dose of a depth in mm, MPa mm.
+    pub(super) fn dose_of(&self, depth: f64) -> f64 {
+        match self.wear {
+            Some(wear) if depth.is_finite() => wear.equivalent(depth) / self.rate,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Dose at the beginning of the next faster layer below that of a dose, MPa mm.
+    pub(super) fn next_faster(&self, dose: f64) -> f64 {
+        let layers = |wear: SurfaceWear| wear.without_faster(self.depth_mm(dose));
+        let end = self.wear.map_or(f64::INFINITY, |wear| layers(wear).end);
+        self.dose_of(end)
+    }
+
     /// Dose of a cell in a row and a column after a part of the present computed cycle that is done, MPa mm: it grows evenly.
     pub(super) fn dose_within(&self, part: f64, row: usize, column: usize) -> f64 {
         let at = |field: &Field| field.rows(row, 1)[column];

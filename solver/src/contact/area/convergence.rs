@@ -1,17 +1,17 @@
-//! Convergence of the pressures of a contact, or of several that share their wear.
+//! Convergence of the pressures of a contact.
 
 /// Iterations without a smaller residual after which cells join with less pressure. Arbitrary: what converges has a smaller one every few.
 const STALLED: usize = 30;
 
 /// Convergence of the iteration.
-pub(crate) struct Convergence {
+pub(super) struct Convergence {
     /// Product of the last residual with the preconditioned one; 0 where directions begin again.
-    pub(crate) product: f64,
+    pub(super) product: f64,
     /// Smallest residual, and iterations since.
     least: f64,
     since: usize,
     /// Part of the pressure of an overlap that a cell joins with.
-    pub(crate) joining: f64,
+    pub(super) joining: f64,
 }
 
 impl Default for Convergence {
@@ -27,7 +27,7 @@ impl Default for Convergence {
 
 impl Convergence {
     /// Notes a residual. Where it does not become smaller, cells join with a tenth of the pressure.
-    pub(crate) fn note(&mut self, residual: f64) {
+    pub(super) fn note(&mut self, residual: f64) {
         self.since += 1;
         if residual < self.least {
             (self.least, self.since) = (residual, 0);

@@ -18,6 +18,7 @@ mod end;
 mod fields;
 mod filter;
 mod jump;
+mod newton;
 mod positions;
 mod pressures;
 mod surface;

@@ -1,6 +1,7 @@
 //! Fields of all positions, one after the other, and what is done with them cell by cell.
 
 use crate::contact::area::Cells;
+use crate::linear::vector::dot;
 
 /// Scales a pressure to a force in N; returns the factor.
 pub(super) fn scale(cells: &Cells, force_n: f64, pressure: &mut [f64]) -> f64 {
@@ -11,35 +12,21 @@ pub(super) fn scale(cells: &Cells, force_n: f64, pressure: &mut [f64]) -> f64 {
     factor
 }
 
-/// Mean of a field over the cells in contact.
-pub(super) fn mean_in_contact(field: &[f64], pressure: &[f64]) -> f64 {
-    let (mut sum, mut count) = (0.0, 0.0);
-    for (value, p) in field.iter().zip(pressure) {
-        if *p > 0.0 {
-            sum += value;
-            count += 1.0;
-        }
-    }
-    sum / f64::max(count, 1.0)
-}
-
-/// Sets a field to 0 out of contact, and subtracts its mean at each position of so many cells.
-pub(super) fn remove_resultants(count: usize, pressure: &[f64], field: &mut [f64]) {
+/// Sets a field to 0 in cells that are not free, and subtracts its mean in the others at each position of so many cells.
+pub(super) fn remove_resultants(count: usize, free: &[f64], field: &mut [f64]) {
     let fields = field.chunks_exact_mut(count);
-    for (field, pressure) in fields.zip(pressure.chunks_exact(count)) {
-        let mean = mean_in_contact(field, pressure);
-        for (value, p) in field.iter_mut().zip(pressure) {
-            *value = if *p > 0.0 { *value - mean } else { 0.0 };
+    for (field, free) in fields.zip(free.chunks_exact(count)) {
+        let mean = dot(field, free) / free.iter().sum::<f64>().max(1.0);
+        for (value, free) in field.iter_mut().zip(free) {
+            *value = free * (*value - mean);
         }
     }
 }
 
-/// Sets a field to 0 out of contact.
-pub(super) fn mask(pressure: &[f64], field: &mut [f64]) {
-    for (value, p) in field.iter_mut().zip(pressure) {
-        if *p <= 0.0 {
-            *value = 0.0;
-        }
+/// Sets a field to 0 in cells that are not free.
+pub(super) fn mask(free: &[f64], field: &mut [f64]) {
+    for (value, free) in field.iter_mut().zip(free) {
+        *value *= free;
     }
 }
 

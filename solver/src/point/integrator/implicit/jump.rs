@@ -58,7 +58,7 @@ impl PointIntegrator {
             Some(pressures) if pressures.cells == cells => self.pressures.insert(pressures),
             _ => {
                 let pressures =
-                    CyclePressures::new(cells, self.scene.modulus());
+                    CyclePressures::new(cells, self.scene.modulus(), self.scene.accuracy.tolerance);
                 self.pressures.insert(pressures)
             }
         };

@@ -11,6 +11,12 @@ use super::positions::JumpPosition;
 use crate::point::surface::Surface;
 use crate::sides::Side;
 
+/// Largest wear of a place over the mean to begin with. Arbitrary.
+const MOST_WORN: f64 = 2.0;
+
+/// Dose over that of an interface at which a place has passed it, far beyond round-off.
+const BEYOND: f64 = 1.0 + 1e-9;
+
 /// A surface at the end of a jump.
 pub(super) struct JumpSurface<'a> {
     side: Side,
@@ -26,6 +32,8 @@ pub(super) struct JumpSurface<'a> {
     depth: Vec<f64>,
     /// Change of the dose of one cycle along a direction, MPa mm.
     change: Vec<f64>,
+    /// Specific wear rate times the cycles at the present dose, 1/MPa.
+    rate: Vec<f64>,
     /// (1 - s) over the path that loads a place, 1/mm.
     share: Vec<f64>,
     /// Sum of a field over all positions.
@@ -44,6 +52,7 @@ impl<'a> JumpSurface<'a> {
             dose: field(),
             depth: field(),
             change: field(),
+            rate: field(),
             share: field(),
             sum: field(),
             known,
@@ -56,9 +65,11 @@ impl<'a> JumpSurface<'a> {
         add_positions(self.side, self.surface, positions, pressure, of_cycle);
         let places = self.of_cycle.iter().zip(&self.known);
         let ends = self.dose.iter_mut().zip(&mut self.depth);
-        for ((dose, depth), (of_cycle, known)) in ends.zip(places) {
+        let ends = ends.zip(&mut self.rate);
+        for (((dose, depth), rate), (of_cycle, known)) in ends.zip(places) {
             *dose = known + self.cycles * of_cycle;
             *depth = self.surface.depth_mm(*dose);
+            *rate = self.cycles * self.surface.rate_at(*dose);
         }
     }
 
@@ -87,12 +98,106 @@ impl<'a> JumpSurface<'a> {
         let change = &mut self.change;
         add_positions(self.side, self.surface, positions, direction, change);
         let (mut slope, mut curvature) = (0.0, 0.0);
-        let places = self.dose.iter().zip(&self.depth).zip(&self.change);
-        for ((dose, depth), change) in places.filter(|(_, change)| **change != 0.0) {
+        let places = self.rate.iter().zip(&self.depth).zip(&self.change);
+        for ((rate, depth), change) in places.filter(|(_, change)| **change != 0.0) {
             slope += depth * change;
-            curvature += self.cycles * self.surface.rate_at(*dose) * change * change;
+            curvature += rate * change * change;
         }
         (slope, curvature)
+    }
+
+    /// Adds the wear of a direction of the pressures in the present layers to a field.
+    pub(super) fn add_worn(
+        &mut self,
+        positions: &[JumpPosition],
+        direction: &[f64],
+        field: &mut [f64],
+    ) {
+        if self.cycles <= 0.0 {
+            return;
+        }
+        let change = &mut self.change;
+        add_positions(self.side, self.surface, positions, direction, change);
+        for (change, rate) in change.iter_mut().zip(&self.rate) {
+            *change *= rate;
+        }
+        let count = field.len() / positions.len();
+        for (position, field) in positions.iter().zip(field.chunks_exact_mut(count)) {
+            let first = self.first(position);
+            let worn = &self.change[first..first + count];
+            for (value, worn) in field.iter_mut().zip(worn) {
+                *value += worn;
+            }
+        }
+    }
+
+    /// Reduces pressures to begin with where they would wear a place much more than the others: by the harmonic mean, as a rigid body sinks.
+    pub(super) fn limit_wear(&mut self, positions: &[JumpPosition], pressure: &mut [f64]) {
+        if self.is_linear() {
+            return;
+        }
+        self.load(positions, pressure);
+        let (mut total, mut over_worn) = (0.0, 0.0);
+        let worn = |known: f64, depth: f64| depth - self.surface.depth_mm(known);
+        let places = self.of_cycle.iter().zip(self.known.iter().zip(&self.depth));
+        for (of_cycle, (known, depth)) in places.filter(|(of_cycle, _)| **of_cycle > 0.0) {
+            total += of_cycle;
+            over_worn += of_cycle / worn(*known, *depth);
+        }
+        let most = MOST_WORN * total / over_worn;
+        let places = self.dose.iter().zip(self.known.iter().zip(&self.depth));
+        for (part, (dose, (known, depth))) in self.sum.iter_mut().zip(places) {
+            *part = 1.0;
+            let before = self.surface.depth_mm(*known);
+            if depth - before > most {
+                let limit = self.surface.dose_of(before + most).max(*known);
+                *part = (limit - known) / (dose - known);
+            }
+        }
+        self.reduce(positions, pressure);
+    }
+
+    /// Reduces pressures so that no place wears beyond its next faster layer; returns `true` if one would.
+    pub(super) fn stop_at_layers(
+        &mut self,
+        positions: &[JumpPosition],
+        pressure: &mut [f64],
+    ) -> bool {
+        if self.is_linear() {
+            return false;
+        }
+        let sum = &mut self.sum;
+        add_positions(self.side, self.surface, positions, pressure, sum);
+        let mut stops = false;
+        let places = self.dose.iter().zip(&self.known);
+        for (part, (dose, known)) in self.sum.iter_mut().zip(places) {
+            let after = known + self.cycles * *part;
+            *part = 1.0;
+            if after > *dose {
+                // A little beyond, where the faster layer wears.
+                let layer = BEYOND * self.surface.next_faster(*dose);
+                if after > layer && layer > *known {
+                    *part = (layer - known) / (after - known);
+                    stops = true;
+                }
+            }
+        }
+        if stops {
+            self.reduce(positions, pressure);
+        }
+        stops
+    }
+
+    /// Multiplies the pressures of all positions with the parts in `sum` of the places that they load.
+    fn reduce(&self, positions: &[JumpPosition], pressure: &mut [f64]) {
+        let count = pressure.len() / positions.len();
+        for (position, pressure) in positions.iter().zip(pressure.chunks_exact_mut(count)) {
+            let first = self.first(position);
+            let parts = &self.sum[first..first + count];
+            for (p, part) in pressure.iter_mut().zip(parts) {
+                *p *= part;
+            }
+        }
     }
 
     /// The sum of depths times the doses of the direction after a step against it.
@@ -118,23 +223,19 @@ impl<'a> JumpSurface<'a> {
     /// Specific wear rate times the cycles in the mean of the doses of a cycle, 1/MPa.
     pub(super) fn mean_wear(&self) -> f64 {
         let (mut worn, mut total) = (0.0, 0.0);
-        let places = self.dose.iter().zip(&self.of_cycle);
-        for (dose, of_cycle) in places.filter(|(_, of_cycle)| **of_cycle > 0.0) {
-            worn += of_cycle * self.surface.rate_at(*dose);
+        let places = self.rate.iter().zip(&self.of_cycle);
+        for (rate, of_cycle) in places.filter(|(_, of_cycle)| **of_cycle > 0.0) {
+            worn += of_cycle * rate;
             total += of_cycle;
         }
-        if total > 0.0 {
-            self.cycles * worn / total
-        } else {
-            0.0
-        }
+        if total > 0.0 { worn / total } else { 0.0 }
     }
 
     /// Chooses the scales for the present layers and contacts, with the least compliance of the grid, mm/MPa.
     pub(super) fn set_scale(
         &mut self,
         positions: &[JumpPosition],
-        pressure: &[f64],
+        free: &[f64],
         least_compliance: f64,
     ) {
         if self.is_linear() {
@@ -143,50 +244,40 @@ impl<'a> JumpSurface<'a> {
         let total: f64 = positions.iter().map(|position| position.path).sum();
         let mean = least_compliance + total * self.mean_wear();
         self.sum.fill(0.0);
-        let count = pressure.len() / positions.len();
-        for (position, pressure) in positions.iter().zip(pressure.chunks_exact(count)) {
+        let count = free.len() / positions.len();
+        for (position, free) in positions.iter().zip(free.chunks_exact(count)) {
             let first = self.first(position);
-            let places = self.sum[first..first + count].iter_mut().zip(pressure);
-            for (path, _) in places.filter(|(_, p)| **p > 0.0) {
-                *path += 0.5 * position.path;
+            let places = self.sum[first..first + count].iter_mut().zip(free);
+            for (path, free) in places {
+                *path += 0.5 * position.path * free;
             }
         }
         add_mirrored(&mut self.sum);
-        let places = self.sum.iter().zip(&self.dose);
-        for (share, (path, dose)) in self.share.iter_mut().zip(places) {
+        let places = self.sum.iter().zip(&self.rate);
+        for (share, (path, rate)) in self.share.iter_mut().zip(places) {
             *share = 0.0;
             if *path > 0.0 {
-                let rate = self.surface.rate_at(*dose);
-                let wear = least_compliance + total * self.cycles * rate;
+                let wear = least_compliance + total * rate;
                 *share = (1.0 - (mean / wear).sqrt()) / path;
             }
         }
     }
 
-    /// Scales the mean of a field of all positions in contact.
-    pub(super) fn scale(
-        &mut self,
-        positions: &[JumpPosition],
-        pressure: &[f64],
-        field: &mut [f64],
-    ) {
+    /// Scales the mean of a field of all positions in free cells.
+    pub(super) fn scale(&mut self, positions: &[JumpPosition], free: &[f64], field: &mut [f64]) {
         if self.is_linear() {
             return;
         }
         add_positions(self.side, self.surface, positions, field, &mut self.sum);
         let count = field.len() / positions.len();
         let fields = field.chunks_exact_mut(count);
-        for (position, (field, pressure)) in positions
-            .iter()
-            .zip(fields.zip(pressure.chunks_exact(count)))
+        for (position, (field, free)) in positions.iter().zip(fields.zip(free.chunks_exact(count)))
         {
             let first = self.first(position);
             let shares = &self.share[first..first + count];
             let means = self.sum[first..first + count].iter().zip(shares);
-            for ((value, p), (sum, share)) in field.iter_mut().zip(pressure).zip(means) {
-                if *p > 0.0 {
-                    *value -= share * sum;
-                }
+            for ((value, free), (sum, share)) in field.iter_mut().zip(free).zip(means) {
+                *value -= free * share * sum;
             }
         }
     }
