@@ -92,6 +92,11 @@ impl PointState {
         Sides::from_fn(|side| self.sliding.surfaces.of(side).fastest_rate())
     }
 
+    /// Wear per cycle by which the deepest place of a side would come to an equivalent depth in mm as soon as the first place does, mm.
+    pub(crate) fn rate_toward(&self, side: Side, limit: f64) -> f64 {
+        self.sliding.surfaces.of(side).rate_toward(limit)
+    }
+
     /// Worn depths of both sides at each cell of the contact at the neutral position after a part of the last computed cycle, whose doses grow
     /// evenly, and at most these, mm.
     pub(crate) fn depths_in_contact(&self, part: f64, limits: Sides<f64>) -> Vec<Sides<f64>> {

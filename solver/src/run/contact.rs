@@ -134,6 +134,11 @@ pub(super) trait Contact: Sized {
     fn max_depth_mm(state: &Self::State) -> Sides<f64>;
     /// Largest wear of a place of each side per cycle, as equivalent depth, mm.
     fn fastest_rate(state: &Self::State) -> Sides<f64>;
+    /// Wear per cycle by which the deepest place of a side would come to an equivalent depth in mm as soon as the first place does, mm; by default the
+    /// largest.
+    fn rate_toward(state: &Self::State, side: Side, _limit: f64) -> f64 {
+        *Self::fastest_rate(state).of(side)
+    }
     /// Cycles in which a body would be worn through at the present rates.
     fn cycles_left(&self, _: &Self::State) -> f64 {
         f64::INFINITY

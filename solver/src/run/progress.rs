@@ -22,7 +22,8 @@ pub(super) fn next_cycle<C: Contact>(
     until_limit: u64,
 ) -> NextCycle {
     let depth = |side, part| contact.surface(&run.state, worn, side).depth_of_part(part);
-    let next = stops::next(scene, now(scene, contact, run), depth).min(until_limit);
+    let rate = |side, limit| C::rate_toward(&run.state, side, limit);
+    let next = stops::next_at(scene, now(scene, contact, run), depth, rate).min(until_limit);
     let position = run.mission.as_ref().map(|mission| mission.position);
     let (cycle, is_reported) =
         position.map_or((next, true), |position| position.next_reported(scene, next));

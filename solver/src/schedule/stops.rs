@@ -47,13 +47,22 @@ const LIFE_STEP: f64 = 0.01;
 /// The next cycle that must be hit exactly, at a snapshot or a point of the friction's table, or beyond which a criterion or a body's
 /// height would be passed at the present rate; a criterion of a life may be passed by a small step. `depth` is that of a part of a side's scar, mm.
 pub(crate) fn next(scene: &Scene, now: StopQuantities, depth: impl Fn(Side, f64) -> f64) -> u64 {
+    next_at(scene, now, depth, |side, _| *now.fastest_rate.of(side))
+}
+
+/// The same for a contact whose deepest place of a side comes to an equivalent depth in mm as fast as `rate` says, mm per cycle.
+pub(crate) fn next_at(
+    scene: &Scene,
+    now: StopQuantities,
+    depth: impl Fn(Side, f64) -> f64,
+    rate: impl Fn(Side, f64) -> f64,
+) -> u64 {
     if now.exceeds_resistance {
         return now.cycle + 1;
     }
     let snapshots = &scene.output.snapshots_at_cycles;
     let snapshot = snapshots.iter().copied().find(|&at| at > now.cycle);
     let wear = scene.surface_wear();
-    // The deepest point wears fastest, so that no other is deeper by then.
     let cycles = |criterion: &Criterion| {
         let Criterion { side, depth_mm, .. } = *criterion;
         let depth = depth(side, criterion.part);
@@ -62,8 +71,13 @@ pub(crate) fn next(scene: &Scene, now: StopQuantities, depth: impl Fn(Side, f64)
         if depth >= depth_mm || depth_mm > deepest {
             f64::INFINITY
         } else {
-            let left = equivalent(depth_mm) - equivalent(depth);
-            left / now.fastest_rate.of(side).max(f64::MIN_POSITIVE)
+            let limit = equivalent(depth_mm);
+            let fastest = if criterion.part > 0.0 {
+                *now.fastest_rate.of(side)
+            } else {
+                rate(side, limit)
+            };
+            (limit - equivalent(depth)) / fastest.max(f64::MIN_POSITIVE)
         }
     };
     let least = LIFE_STEP * real_cycles(now.cycle);

@@ -84,6 +84,10 @@ impl Contact for &mut PointIntegrator {
         state.fastest_rate()
     }
 
+    fn rate_toward(state: &PointState, side: Side, limit: f64) -> f64 {
+        state.rate_toward(side, limit)
+    }
+
     fn change_motion(&mut self, state: &mut PointState, from: Motion) -> Result<(), SolveError> {
         Ok((**self).change_motion(state, from)?)
     }
