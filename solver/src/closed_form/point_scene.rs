@@ -79,6 +79,7 @@ impl CyclePath {
     fn of(motion: Motion) -> Self {
         match motion {
             Motion::Reciprocating { .. } => Self::ToAndFro,
+            Motion::Periodic { turns, .. } if turns.is_reciprocating() => Self::ToAndFro,
             Motion::Periodic { turns, .. } => Self::Turning(turns),
             Motion::Continuous { step_mm } => Self::Continuous { mm: step_mm },
         }

@@ -63,6 +63,11 @@ impl TurningPoints {
         self.x_mm[0]
     }
 
+    /// Returns `true` if they are two at the same distance from the middle.
+    pub(crate) fn is_reciprocating(&self) -> bool {
+        self.count == 2 && (self.x_mm[0] + self.x_mm[1]).abs() <= 0.0
+    }
+
     /// Length of all strokes together, mm.
     pub(crate) fn path_mm(&self) -> f64 {
         self.strokes().map(|(from, to)| (to - from).abs()).sum()
