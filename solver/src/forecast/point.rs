@@ -11,8 +11,10 @@ use crate::effects;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::number::{count_at_least, real, real_cycles};
-use crate::point::{JumpControl, legs};
+use crate::point::{JumpControl, is_steady, laws_of_implicit_jumps, legs};
 use crate::scene::{Effect, Scene};
+use crate::schedule::jump::Formula;
+use crate::schedule::jump::implicit::two_steps;
 use crate::schedule::mission::MissionPosition;
 use crate::schedule::stops::StopQuantities;
 use crate::sides::{Side, Sides};
@@ -38,6 +40,12 @@ pub struct PointForecast {
 
 /// Share of the change of the wear per cycle in the estimate of the run. Fitted to runs of `sd_card` and of a ball of steel.
 const SHARE: f64 = 0.5;
+/// The same of implicit jumps, and what cells that pass an interface add from the first one on. Fitted to runs of a ball, bare and plated.
+const SHARE_OF_IMPLICIT: f64 = 0.4;
+const AT_LAYERS: f64 = 0.06;
+/// Solves of an implicit jump beside those at its positions, and iterations of each where it wears little against the indentation.
+const SOLVES_AT_THE_END: usize = 2;
+const ITERATIONS_OF_IMPLICIT: f64 = 20.0;
 /// Half-length of the window over that of the contact; mean over a run of windows that widen by thirds.
 const WINDOW: f64 = 1.6;
 /// Iterations of a solve: about 12 of an unworn contact, 3 to 8 where it wears.
@@ -61,6 +69,32 @@ struct Worn {
     across: f64,
     /// Largest specific wear rates down to the worn depths, 1/MPa.
     rates: Sides<f64>,
+    /// Worn depth of both sides, mm.
+    depth: f64,
+    /// True if a side is through to a layer that wears faster.
+    is_at_layers: bool,
+}
+
+/// An implicit jump.
+struct ImplicitStep {
+    jump: u64,
+    formula: Formula,
+    /// The control that has chosen it.
+    control: JumpControl,
+}
+
+impl ImplicitStep {
+    /// The next one after so many cycles, as in the run.
+    fn next(control: &JumpControl, contact: &PointScene, done: u64, remaining: u64) -> Self {
+        let mut control = *control;
+        let jump = control.next_implicit(&contact.accuracy, done, remaining);
+        let (formula, _) = two_steps(control.last_jump(), real_cycles(jump));
+        Self {
+            jump,
+            formula,
+            control,
+        }
+    }
 }
 
 /// The contact in a block of a mission, or in the whole run.
@@ -99,26 +133,49 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
             jumps,
             product,
         } = &mut blocks[position.block];
-        let step = contact.step_over_indentation(worn.rates, worn.along);
-        let jump = jumps.next(&contact.accuracy, done, until - done, step);
+        let is_moving = solves(contact, worn.along) > 1;
+        let step = if is_moving {
+            contact.step_over_indentation(worn.rates, worn.along)
+        } else {
+            0.0
+        };
+        let remaining = until - done;
+        let mut jump = jumps.next(&contact.accuracy, done, remaining, step);
+        let implicit = laws_of_implicit_jumps(contact)
+            .filter(|_| scene.mission.is_none() && is_moving && done > 0)
+            .map(|_| ImplicitStep::next(jumps, contact, done, remaining))
+            .filter(|step| step.jump >= jump);
+        if let Some(step) = &implicit {
+            jump = step.jump;
+        }
         let next = worn_after(scene, contact, done + jump);
         let grown = next.along * next.across;
-        jumps.update(jump, SHARE * (1.0 - *product / grown));
+        let change = 1.0 - *product / grown;
+        let mut solving = Solving::of(contact, &next, unworn);
+        if let Some(step) = implicit {
+            let error =
+                SHARE_OF_IMPLICIT * change + if next.is_at_layers { AT_LAYERS } else { 0.0 };
+            *jumps = step.control;
+            jumps.update_implicit(jump, error, step.formula);
+            solving.jump_implicitly(contact, &worn, next.depth - worn.depth);
+        } else {
+            jumps.update(jump, SHARE * change);
+            solving.repetitions = repetitions;
+        }
         *product = grown;
         (done, worn) = (done + jump, next);
-        let mut solving = Solving::of(contact, &worn, unworn);
         if is_first && contact.slip == SlipRegime::Partial {
             solving.solves += CHANGE_SOLVES;
         }
         is_first = false;
-        forecast.add(done, 1.0, repetitions, &solving);
+        forecast.add(done, 1.0, &solving);
         let strip = (scene.largest_amplitude_mm() / worn.along + WINDOW) / WINDOW;
         let both = count_at_least((1.0 + strip) * solving.cells);
         forecast.surface_cells = forecast.surface_cells.max(both);
         if forecast.computed_cycles >= MOST_CYCLES {
             // With the last jump.
             let rest = real_cycles(cycles - done) / real_cycles(jump);
-            forecast.add(cycles, rest, repetitions, &solving);
+            forecast.add(cycles, rest, &solving);
             break;
         }
     }
@@ -127,10 +184,20 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
 
 /// The unworn contact in each block.
 fn blocks(scene: &Scene, contact: &PointScene, unworn: &Worn) -> Vec<Block> {
-    let slip = if effects::plan(scene).simulates(Effect::StickMemory) {
+    let plan = effects::plan(scene);
+    let slip = if plan.simulates(Effect::StickMemory) {
         SlipRegime::Partial
     } else {
         SlipRegime::Gross
+    };
+    let spring = if plan.simulates(Effect::SpringFading) {
+        contact.spring_n_per_mm
+    } else {
+        0.0
+    };
+    let contact = PointScene {
+        spring_n_per_mm: spring,
+        ..*contact
     };
     let blocks = scene.blocks().into_iter();
     let blocks = blocks.map(|block| Block {
@@ -148,6 +215,11 @@ fn worn_after(scene: &Scene, contact: &PointScene, done: u64) -> Worn {
     let wear = scene.surface_wear();
     let depth = worn_depth_after(scene, along, &wear, done);
     let grown = |half: f64, radius: f64, worn: f64| (half * half + 2.0 * radius * worn).sqrt();
+    let is_through = |wear: Option<SurfaceWear>, depth: f64| {
+        wear.is_some_and(|wear| wear.without_faster(depth).start > 0.0)
+    };
+    let is_at_layers =
+        is_through(wear.slider, depth.slider) || is_through(wear.receptacle, depth.receptacle);
     let rates = wear.zip(depth).map(|(wear, depth)| {
         wear.map_or(0.0, |wear| wear.largest_rate(depth, LocalState::default()))
     });
@@ -155,6 +227,8 @@ fn worn_after(scene: &Scene, contact: &PointScene, done: u64) -> Worn {
         along: grown(along, radii.0, depth.slider + followed * depth.receptacle),
         across: grown(across, radii.1, depth.slider + depth.receptacle),
         rates,
+        depth: depth.slider + depth.receptacle,
+        is_at_layers,
     }
 }
 
@@ -174,6 +248,8 @@ struct Solving {
     solves: usize,
     /// Iterations of each.
     iterations: f64,
+    /// Repetitions of each.
+    repetitions: f64,
     cells: f64,
 }
 
@@ -189,21 +265,33 @@ impl Solving {
         Self {
             solves,
             iterations,
+            repetitions: 1.0,
             cells: along * 2.0 * WINDOW * per_half * coarsened(worn.across / unworn.1),
         }
+    }
+
+    /// Takes the solves of an implicit jump that wears a depth in mm: at all positions before and after it, and of the contacts that are reported.
+    fn jump_implicitly(&mut self, contact: &PointScene, worn: &Worn, depth: f64) {
+        let distance = contact.accuracy.step_over_half_length * worn.along;
+        let positions = count_at_least(contact.amplitude_mm.abs() / distance) + 1;
+        // Indentation of a flat punch.
+        let mean_length = (worn.along * worn.across).sqrt();
+        let indentation = contact.force_n / (2.0 * contact.modulus() * mean_length);
+        self.solves = 2 * positions + SOLVES_AT_THE_END;
+        self.iterations = ITERATIONS_OF_IMPLICIT * (1.0 + depth / indentation).sqrt();
     }
 }
 
 impl PointForecast {
     /// Adds computed cycles until a cycle of the run.
-    fn add(&mut self, until: u64, computed: f64, repetitions: f64, solving: &Solving) {
+    fn add(&mut self, until: u64, computed: f64, solving: &Solving) {
         let solves = real(solving.solves);
         self.computed_cycles += computed;
         self.most_increments = self.most_increments.max(solving.solves);
-        self.increments += computed * repetitions * solves;
+        self.increments += computed * solving.repetitions * solves;
         self.course.add(until, computed * solves);
         self.cell_iterations +=
-            computed * repetitions * solves * solving.iterations * solving.cells;
+            computed * solving.repetitions * solves * solving.iterations * solving.cells;
         self.most_cells = self.most_cells.max(count_at_least(solving.cells));
     }
 }
@@ -214,7 +302,7 @@ const MOST_CYCLES: f64 = 300.0;
 /// Contact solves of a cycle of a contact of a half-length, mm.
 fn solves(contact: &PointScene, length: f64) -> usize {
     let cell = length / contact.accuracy.cells_per_half_length;
-    if contact.amplitude_mm.abs() < 0.5 * cell {
+    if is_steady(contact) || contact.amplitude_mm.abs() < 0.5 * cell {
         return 1;
     }
     let step = contact.accuracy.step_over_half_length * length;

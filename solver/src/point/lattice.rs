@@ -40,6 +40,11 @@ pub(super) struct Lattice {
     travel: f64,
 }
 
+/// Returns `true` if a contact is the same everywhere: that of a slider which wears alone on a plane.
+pub(crate) fn is_steady(scene: &PointScene) -> bool {
+    scene.bodies.receptacle.wear.is_none() && scene.travel_over_receptacle() >= 1.0
+}
+
 impl Lattice {
     /// The grids of an unworn contact for the amplitudes of all motions in which it slips as a whole, mm.
     pub(super) fn of(scene: &PointScene, amplitudes_mm: &[f64]) -> Self {
@@ -49,9 +54,7 @@ impl Lattice {
         let amplitudes = amplitudes_mm.iter().map(|amplitude| amplitude.abs());
         let amplitude_mm = amplitudes.clone().fold(0.0, f64::max);
         let travel = scene.travel_over_receptacle();
-        // A slider that wears alone on a plane has the same contact everywhere.
-        let is_steady = scene.bodies.receptacle.wear.is_none() && travel >= 1.0;
-        let amplitude = if is_steady || amplitude_mm < 0.5 * target {
+        let amplitude = if is_steady(scene) || amplitude_mm < 0.5 * target {
             0
         } else {
             let scars = amplitudes.map(|own| Scar {
