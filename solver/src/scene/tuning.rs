@@ -214,8 +214,8 @@ pub struct Tuning {
     /// True if jumps are implicit in the worn shapes where they can be (`cycle/implicit.rs`): `verify_implicit_jumps.rs` states what that saves.
     /// No specification sets it.
     pub implicit_jumps: bool,
-    /// The same for point contacts (`point/implicit.rs`), which `implicit_jumps` does not switch: `verify_implicit_points.rs` states what that
-    /// saves. Off until forecasts and companions follow such jumps.
+    /// The same for point contacts (`point/integrator/implicit.rs`), which `implicit_jumps` does not switch: `verify_implicit_points.rs` states what that
+    /// saves.
     pub implicit_jumps_of_points: bool,
 }
 
@@ -277,7 +277,7 @@ impl Tuning {
         surrogate_half_width: 1.3,
         step_share: 0.42,
         implicit_jumps: true,
-        implicit_jumps_of_points: false,
+        implicit_jumps_of_points: true,
     };
 }
 
