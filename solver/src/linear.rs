@@ -2,6 +2,7 @@
 //! names the library behind it.
 
 mod blocked_lu;
+mod bordered_band;
 pub(crate) mod cholesky;
 pub(crate) mod condensed;
 mod cross_approximation;
@@ -14,6 +15,7 @@ pub(crate) mod lemke;
 pub(crate) mod tridiagonal;
 pub(crate) mod vector;
 
+pub(crate) use bordered_band::{BorderedBand, Column};
 pub(crate) use cholesky::{CholeskyFactor, CholeskyPattern, FactorError};
 pub(crate) use condensed::CondensedSystem;
 pub(crate) use cross_approximation::Entries;

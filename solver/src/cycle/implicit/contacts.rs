@@ -6,8 +6,8 @@ use crate::contact::{
     WarmStart, Work,
 };
 use crate::cycle::{IncrementNumber, WarmStarts};
-use crate::linear::SquareMatrix;
-use crate::sides::Sides;
+use crate::linear::BorderedBand;
+use crate::sides::{Side, Sides};
 
 /// Most updates of the closed nodes on fixed shapes.
 const MOST_UPDATES: usize = 40;
@@ -167,13 +167,19 @@ impl Contacts {
         }
     }
 
+    /// Most nodes of a side under one contact.
+    pub(super) fn reach(&self, bodies: Bodies<'_>, side: Side) -> usize {
+        let nodes = |contact: &LinearisedContact| contact.nodes_of(bodies.pair, side).len();
+        self.placed.iter().map(nodes).max().unwrap_or(0)
+    }
+
     /// Adds the change of the doses of one cycle per change of the depths, times a factor, to a matrix of the unknowns.
     pub(super) fn add_sensitivity(
         &mut self,
         bodies: Bodies<'_>,
         unknowns: &DoseUnknowns,
         factor: f64,
-        matrix: &mut SquareMatrix,
+        matrix: &mut BorderedBand,
     ) {
         for (contact, position) in self.placed.iter().zip(&self.positions) {
             let factor = factor * position.path;

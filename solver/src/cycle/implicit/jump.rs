@@ -8,7 +8,7 @@
 use super::contacts::{Bodies, Contacts, not_converged};
 use crate::contact::{ContactError, DoseUnknowns};
 use crate::law::dose_laws::DoseLaws;
-use crate::linear::CondensedSystem;
+use crate::linear::BorderedBand;
 use crate::schedule::jump::implicit::formulas::Formulas;
 use crate::sides::{Side, Sides};
 
@@ -17,6 +17,11 @@ const MOST_ITERATIONS: usize = 25;
 
 /// Depth over the indentation by which the layers of an iteration may differ from those of its doses.
 const DEPTH_TOLERANCE: f64 = 1e-6;
+
+/// Least number of unknowns of a banded system, and least of them over its half-width and border: smaller ones are dense. Arbitrary: the results
+/// are the same to round-off.
+const LEAST_BANDED: usize = 400;
+const LEAST_OF_WIDTH: usize = 4;
 
 /// A jump: D1 = known + cycles d(G(D1)).
 pub(super) struct ImplicitJump<'a> {
@@ -39,7 +44,7 @@ pub(super) struct JumpEnd {
 #[derive(Default)]
 pub(super) struct JumpSystem {
     unknowns: DoseUnknowns,
-    system: CondensedSystem,
+    system: BorderedBand,
     rhs: Vec<f64>,
     slopes: Vec<f64>,
 }
@@ -116,28 +121,45 @@ impl ImplicitJump<'_> {
         depth: &Sides<Vec<f64>>,
         of_cycle: &Sides<Vec<f64>>,
     ) -> bool {
-        let nodes = &system.unknowns.nodes;
-        let order = nodes.len();
-        let matrix = system.system.system(order);
-        matrix.reset(order);
+        self.lay_out(contacts, system);
+        let (nodes, matrix) = (&system.unknowns.nodes, &mut system.system);
         let Formulas { known, cycles, .. } = self.formulas;
         contacts.add_sensitivity(self.bodies, &system.unknowns, -cycles, matrix);
         system.rhs.clear();
         system.slopes.clear();
         for (number, (side, node)) in nodes.iter().enumerate() {
             let slope = self.laws.slope(*side, depth.of(*side)[*node]);
-            for entry in matrix.column_mut(number) {
-                *entry *= slope;
-            }
-            *matrix.at(number, number) += 1.0;
+            let mut column = matrix.column_mut(number);
+            column.scale(slope);
+            column.add(number, 1.0);
             let at = |values: &Sides<Vec<f64>>| values.of(*side)[*node];
             system.slopes.push(slope);
             let residual = at(dose) - at(known) - cycles * at(of_cycle);
             system.rhs.push(-residual);
         }
-        system.system.condense(order);
-        system.system.eliminate(&mut system.rhs);
+        matrix.solve(&mut system.rhs);
         system.rhs.iter().all(|change| change.is_finite())
+    }
+
+    /// Lays out a zero system. A short contact on a long scar couples near nodes of the scar with one another and with those of the other
+    /// side: numbered along the scar, they are banded, and the other side is their border.
+    fn lay_out(&self, contacts: &Contacts, system: &mut JumpSystem) {
+        let unknowns = &mut system.unknowns;
+        let order = unknowns.nodes.len();
+        let counts = Sides::from_fn(|side| unknowns.count(side));
+        let scar = if counts.slider > counts.receptacle {
+            Side::Slider
+        } else {
+            Side::Receptacle
+        };
+        let (core, half_width) = (*counts.of(scar), contacts.reach(self.bodies, scar));
+        let border = order - core;
+        if order >= LEAST_BANDED && order > LEAST_OF_WIDTH * (half_width + border) {
+            unknowns.number_first(scar);
+            system.system.reset(core, half_width, border);
+        } else {
+            system.system.reset(0, 0, order);
+        }
     }
 
     /// Returns `true` if the depths are those of the doses.

@@ -4,9 +4,10 @@ use super::*;
 use crate::condensation::{Condensed, condense};
 use crate::contact::DoseUnknowns;
 use crate::effects;
-use crate::linear::SquareMatrix;
+use crate::linear::BorderedBand;
 use crate::model::tests::fuzz_button;
 use crate::model::{self, Model};
+use crate::number::real;
 use crate::scene::{Accuracy, BlockShape, Friction, Layer, Scene, SliderShape, WearLaw};
 
 /// Wear of both bodies, gold over a base of 20 times its rate.
@@ -186,7 +187,8 @@ fn the_change_of_doses_with_depths_is_that_of_differences() {
         receptacle: true,
     };
     contacts.unknowns(bodies, both, &mut unknowns);
-    let mut matrix = SquareMatrix::zeros(unknowns.nodes.len());
+    let mut matrix = BorderedBand::default();
+    matrix.reset(0, 0, unknowns.nodes.len());
     contacts.add_sensitivity(bodies, &unknowns, 1.0, &mut matrix);
     let before = contacts.doses(bodies);
     let change = 1e-3 * contacts.indentation();
@@ -195,12 +197,52 @@ fn the_change_of_doses_with_depths_is_that_of_differences() {
         depth.of_mut(*side)[*node] += change;
         contacts.solve(bodies, &depth).expect("they are solved");
         let after = contacts.doses(bodies);
-        let column = matrix.column(number);
+        let column = matrix.dense().column(number);
         let largest = column.iter().fold(0.0, |m: f64, entry| m.max(entry.abs()));
         for (entry, (side, node)) in column.iter().zip(&unknowns.nodes) {
             let found = (after.of(*side)[*node] - before.of(*side)[*node]) / change;
             assert!((entry - found).abs() < 1e-7 * largest, "{entry} {found}");
         }
+    }
+}
+
+/// Numbered along the receptacle, the doses form a band and a border.
+#[test]
+fn a_banded_system_of_doses_has_the_solution_of_the_dense_one() {
+    let bench = Bench::new(scene());
+    let (mut integrator, state) = bench.begin();
+    let mut contacts = settled(&mut integrator, &state);
+    let bodies = Bodies::of(
+        &integrator.pair,
+        &integrator.slope,
+        &state.depth,
+        state.contact.indentation,
+    );
+    let mut unknowns = DoseUnknowns::default();
+    let both = Sides {
+        slider: true,
+        receptacle: true,
+    };
+    contacts.unknowns(bodies, both, &mut unknowns);
+    unknowns.number_first(Side::Receptacle);
+    let (order, core) = (unknowns.nodes.len(), unknowns.count(Side::Receptacle));
+    let reach = contacts.reach(bodies, Side::Receptacle);
+    assert!(reach < core, "{reach} {core}");
+    let mut solve = |core: usize| {
+        let mut system = BorderedBand::default();
+        system.reset(core, reach, order - core);
+        // A thousand cycles at a rate of 1e-9/MPa.
+        contacts.add_sensitivity(bodies, &unknowns, -1e-6, &mut system);
+        let mut solution: Vec<f64> = (0..order).map(|i| real(i % 7)).collect();
+        for number in 0..order {
+            system.column_mut(number).add(number, 1.0);
+        }
+        system.solve(&mut solution);
+        solution
+    };
+    let (dense, banded) = (solve(0), solve(core));
+    for (dense, banded) in dense.iter().zip(&banded) {
+        assert!((dense - banded).abs() < 1e-9, "{dense} {banded}");
     }
 }
 

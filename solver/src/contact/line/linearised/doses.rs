@@ -8,9 +8,10 @@ use super::super::pair::Pair;
 use super::super::status::Status;
 use super::LinearisedContact;
 use super::unknowns::DoseUnknowns;
-use crate::linear::SquareMatrix;
 use crate::linear::vector::{add_scaled, vectorized};
-use crate::sides::Sides;
+use crate::linear::{BorderedBand, Column};
+use crate::sides::{Side, Sides};
+use std::ops::Range;
 
 impl LinearisedContact {
     /// Adds the nodes of those sides that wear under the closed nodes to the unknowns.
@@ -38,6 +39,20 @@ impl LinearisedContact {
         }
     }
 
+    /// Nodes of a side under the closed nodes, with those between them.
+    pub(crate) fn nodes_of(&self, pair: &Pair<'_>, side: Side) -> Range<usize> {
+        let coupling = &self.geometry.coupling;
+        let (Some(first), Some(last)) = (self.closed.first(), self.closed.last()) else {
+            return 0..0;
+        };
+        let nodes = coupling.first + first..coupling.first + last + 1;
+        if side == pair.interface.slave {
+            nodes
+        } else {
+            coupling.masters(&nodes)
+        }
+    }
+
     /// Adds the doses of the pressures over a path of the slider in mm to both surfaces.
     pub(crate) fn add_doses(&self, pair: &Pair<'_>, path: f64, doses: &mut Sides<Vec<f64>>) {
         let slave = pair.interface.slave;
@@ -61,7 +76,7 @@ impl LinearisedContact {
         unknowns: &DoseUnknowns,
         factor: f64,
         change: &mut Vec<f64>,
-        matrix: &mut SquareMatrix,
+        matrix: &mut BorderedBand,
     ) {
         let slave = pair.interface.slave;
         let coupling = &self.geometry.coupling;
@@ -75,15 +90,11 @@ impl LinearisedContact {
                     unknowns,
                     -factor,
                     &inverse.column(j)[..n],
-                    matrix.column_mut(column),
+                    &mut matrix.column_mut(column),
                 );
             }
         }
-        let (first, last) = (self.closed.first(), self.closed.last());
-        let Some((first, last)) = first.zip(last) else {
-            return;
-        };
-        let masters = coupling.masters(&(coupling.first + first..coupling.first + last + 1));
+        let masters = self.nodes_of(pair, slave.other());
         let Some(begin) = masters
             .clone()
             .find(|j| unknowns.of(slave.other(), *j).is_some())
@@ -112,7 +123,7 @@ impl LinearisedContact {
                     unknowns,
                     -factor,
                     &change[at..at + n],
-                    matrix.column_mut(column),
+                    &mut matrix.column_mut(column),
                 );
             }
         }
@@ -125,7 +136,7 @@ impl LinearisedContact {
         unknowns: &DoseUnknowns,
         factor: f64,
         pressures: &[f64],
-        column: &mut [f64],
+        column: &mut Column<'_>,
     ) {
         let slave = pair.interface.slave;
         let (coupling, widths) = (&self.geometry.coupling, &pair.master().widths);
@@ -133,12 +144,12 @@ impl LinearisedContact {
             let dose = factor * self.slip(*closed) * pressure;
             let node = coupling.first + closed;
             if let Some(row) = unknowns.of(slave, node) {
-                column[row] += dose;
+                column.add(row, dose);
             }
             let (from, shares) = coupling.standard_row(node);
             for (j, share) in (from..).zip(shares) {
                 if let Some(row) = unknowns.of(slave.other(), j) {
-                    column[row] += dose * share / widths[j];
+                    column.add(row, dose * share / widths[j]);
                 }
             }
         }

@@ -32,6 +32,19 @@ impl DoseUnknowns {
         }
     }
 
+    /// Numbers the unknowns of a side first, in their order along the surface.
+    pub(crate) fn number_first(&mut self, side: Side) {
+        self.nodes.sort_by_key(|(of, node)| (*of != side, *node));
+        for (number, (side, node)) in self.nodes.iter().enumerate() {
+            self.number.of_mut(*side)[*node] = number;
+        }
+    }
+
+    /// Number of unknowns of a side.
+    pub(crate) fn count(&self, side: Side) -> usize {
+        self.nodes.iter().filter(|(of, _)| *of == side).count()
+    }
+
     /// Returns `true` if the dose of a node is unknown.
     pub(crate) fn contains(&self, side: Side, node: usize) -> bool {
         self.of(side, node).is_some()
