@@ -52,7 +52,6 @@ pub(crate) struct LinearisedContact {
     inverse: Inverse,
     /// Vertical force of the pressures of all nodes of the window, mm.
     force: Vec<f64>,
-    undeformed: Vec<f64>,
     rhs: Vec<f64>,
     solution: Vec<f64>,
     window: (usize, usize),

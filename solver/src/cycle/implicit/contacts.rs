@@ -56,6 +56,7 @@ pub(super) struct Contacts {
     pub(super) positions: Vec<CyclePosition>,
     pub(super) placed: Vec<LinearisedContact>,
     change: Vec<f64>,
+    undeformed: Vec<f64>,
 }
 
 impl Contacts {
@@ -107,7 +108,7 @@ impl Contacts {
     ) -> Result<usize, ContactError> {
         let mut changes = 0;
         for (contact, position) in self.placed.iter_mut().zip(&self.positions) {
-            changes += contact.update(bodies.place(depth, position))?;
+            changes += contact.update(bodies.place(depth, position), &mut self.undeformed)?;
         }
         Ok(changes)
     }
@@ -122,7 +123,7 @@ impl Contacts {
         depth: &Sides<Vec<f64>>,
     ) -> Result<(), ContactError> {
         for (contact, position) in self.placed.iter_mut().zip(&self.positions) {
-            settle(contact, bodies.place(depth, position))?;
+            settle(contact, bodies.place(depth, position), &mut self.undeformed)?;
         }
         Ok(())
     }
@@ -215,18 +216,19 @@ const NO_START: WarmStart<'_> = WarmStart {
     pressure: &[],
 };
 
-/// Solves one contact on fixed shapes.
+/// Solves one contact on fixed shapes. `undeformed` is a buffer.
 ///
 /// # Errors
 /// [`ContactError`] if it has no solution.
 pub(super) fn settle(
     contact: &mut LinearisedContact,
     place: Place<'_>,
+    undeformed: &mut Vec<f64>,
 ) -> Result<(), ContactError> {
     for _ in 0..MOST_UPDATES {
         contact.solve(place)?;
         contact.work.increments += 1;
-        if contact.update(place)? == 0 {
+        if contact.update(place, undeformed)? == 0 {
             return Ok(());
         }
     }

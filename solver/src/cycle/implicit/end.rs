@@ -221,7 +221,7 @@ impl Integrator<'_> {
         if let Some(start) = state.warm_starts.of(increment) {
             contact.place(place, start)?;
         }
-        settle(&mut contact, place)?;
+        settle(&mut contact, place, &mut Vec::new())?;
         state.work += contact.work;
         let mut found = state.contact.clone();
         contact.write(place, &state.contact, &mut found);

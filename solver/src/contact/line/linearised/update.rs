@@ -13,11 +13,15 @@ const SIGN_TOLERANCE: f64 = 1e-9;
 
 impl LinearisedContact {
     /// Updates the closed nodes by the signs of the last solution, which was on the depths of the place; returns the number of
-    /// nodes that have changed.
+    /// nodes that have changed. `undeformed` is a buffer.
     ///
     /// # Errors
     /// [`ContactError`] if the contact has outgrown its zones.
-    pub(crate) fn update(&mut self, place: Place<'_>) -> Result<usize, ContactError> {
+    pub(crate) fn update(
+        &mut self,
+        place: Place<'_>,
+        undeformed: &mut Vec<f64>,
+    ) -> Result<usize, ContactError> {
         self.evaluate_gaps(place.position);
         let slipping = Status::slip(place.position.direction);
         let it = &mut self.iterate;
@@ -44,7 +48,7 @@ impl LinearisedContact {
             it.status[lowest.0] = slipping;
         }
         self.is_factored &= changes == 0;
-        let grown = self.grown_window(place);
+        let grown = self.grown_window(place, undeformed);
         if grown != self.window {
             self.widen(place, grown)?;
             changes += 1;
@@ -81,13 +85,13 @@ impl LinearisedContact {
     }
 
     /// The window with all candidates on the depths of the place.
-    fn grown_window(&mut self, place: Place<'_>) -> (usize, usize) {
+    fn grown_window(&self, place: Place<'_>, undeformed: &mut Vec<f64>) -> (usize, usize) {
         let Place { pair, surfaces, .. } = place;
         let covered = place.covered();
         let slider_x = place.position.slider_x;
-        undeformed_gaps(pair, &surfaces, slider_x, covered, &mut self.undeformed);
+        undeformed_gaps(pair, &surfaces, slider_x, covered, undeformed);
         let it = &self.iterate;
-        let needed = candidates(&self.undeformed, covered.0, it.indentation, it.height);
+        let needed = candidates(undeformed, covered.0, it.indentation, it.height);
         let both = (self.window.0.min(needed.0), self.window.1.max(needed.1));
         if both == self.window {
             both
