@@ -50,6 +50,7 @@ pub(crate) use half_width::MeanHalfWidth;
 use heating::Heating;
 use implicit::ImplicitJumps;
 pub(crate) use implicit::are_possible as implicit_jumps_are_possible;
+pub(crate) use implicit::positions_of_jumps as positions_of_implicit_jumps;
 pub use motion_history::MotionHistory;
 pub(crate) use motion_history::mean_error;
 use replay::Replays;

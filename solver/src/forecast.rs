@@ -23,6 +23,7 @@ mod surrogate;
 
 use crate::change::Change;
 use crate::closed_form::expected_wear::expected_end;
+use crate::cycle::positions_of_implicit_jumps;
 use crate::model::Layout;
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::{Accuracy, Scene};
@@ -78,6 +79,8 @@ pub struct Forecast {
     /// Natural logarithm of the cycles at the end over those at which a layer was worn through to one that wears much faster; 0 where none is, or
     /// where all jumps may be implicit, which its edge does not hold back.
     pub fast_layer: f64,
+    /// Pairs of nodes in the contacts that an implicit jump holds at all of its positions at once, at most.
+    pub held_pairs: f64,
 }
 
 impl Forecast {
@@ -162,6 +165,11 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
             before: before.as_slices(),
             after: scar.depth.as_slices(),
         };
+        let solved = solved(x, scar);
+        if implicit.is_some() {
+            let pairs = real(positions_of_implicit_jumps(plan.steps)) * real(solved).powi(2);
+            run.held_pairs = run.held_pairs.max(pairs);
+        }
         match implicit {
             Some(implicit) => jump.update_implicit(implicit.wear(scar, &before, done), done),
             None => jump.update(scar.widths(), 0.0, depth, done),
@@ -181,7 +189,7 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
             steps: plan.steps,
             half_width_mm: scar.half_width,
             nodes: nodes_within(x, scar.half_width),
-            solved: solved(x, scar),
+            solved,
         });
         is_first = false;
         worn.rebuild(scene, &mut run.condensations);

@@ -45,6 +45,7 @@ pub(super) use buffers::ImplicitJumps;
 use contacts::Bodies;
 use end::End;
 use jump::ImplicitJump;
+pub(crate) use positions::count as positions_of_jumps;
 use positions::{CyclePosition, positions};
 
 /// Pressure skew of a single cycle by the wear that the contact as a whole has, k s E*/b, from which on the contacts in a computed cycle

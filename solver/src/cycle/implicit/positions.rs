@@ -15,7 +15,7 @@ pub(super) struct CyclePosition {
 }
 
 /// Number of positions of a cycle of so many increments: odd, those between both turning points and these.
-pub(super) fn count(increments: usize) -> usize {
+pub(crate) fn count(increments: usize) -> usize {
     2 * increments.div_ceil(4) + 1
 }
 

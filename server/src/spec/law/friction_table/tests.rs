@@ -195,7 +195,7 @@ fn doses_need_a_surface_that_wears_as_deep() {
 #[test]
 fn doses_are_read_from_depths_that_tell_them() {
     let barwell = r#"{"law":"barwell","k_over_h_per_mpa":2e-7,"course":"accelerating","characteristic_dose_mpa_mm":300}"#;
-    let rhee = r#"{"law":"rhee","wear_factor":2e-7,"pressure_exponent":1,"speed_exponent":1,"time_exponent":1}"#;
+    let rhee = r#"{"law":"rhee","wear_factor":2e-7,"pressure_exponent":1.2,"speed_exponent":1,"time_exponent":1}"#;
     let card = |friction: &str, law: &str| {
         let wear = format!(r#""wear":{{"slider":null,"receptacle":{law}}}"#);
         format!(
