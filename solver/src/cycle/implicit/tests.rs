@@ -170,6 +170,17 @@ fn settled(integrator: &mut Integrator<'_>, state: &CycleState) -> Contacts {
     contacts
 }
 
+/// Unknown doses where both sides wear.
+fn unknowns_of_both(contacts: &Contacts, bodies: Bodies<'_>) -> DoseUnknowns {
+    let mut unknowns = DoseUnknowns::default();
+    let both = Sides {
+        slider: true,
+        receptacle: true,
+    };
+    contacts.unknowns(bodies, both, &mut unknowns);
+    unknowns
+}
+
 #[test]
 fn the_change_of_doses_with_depths_is_that_of_differences() {
     let bench = Bench::new(scene());
@@ -181,12 +192,7 @@ fn the_change_of_doses_with_depths_is_that_of_differences() {
         &state.depth,
         state.contact.indentation,
     );
-    let mut unknowns = DoseUnknowns::default();
-    let both = Sides {
-        slider: true,
-        receptacle: true,
-    };
-    contacts.unknowns(bodies, both, &mut unknowns);
+    let unknowns = unknowns_of_both(&contacts, bodies);
     let mut matrix = BorderedBand::default();
     matrix.reset(0, 0, unknowns.nodes.len());
     contacts.add_sensitivity(bodies, &unknowns, 1.0, &mut matrix);
@@ -218,12 +224,7 @@ fn a_banded_system_of_doses_has_the_solution_of_the_dense_one() {
         &state.depth,
         state.contact.indentation,
     );
-    let mut unknowns = DoseUnknowns::default();
-    let both = Sides {
-        slider: true,
-        receptacle: true,
-    };
-    contacts.unknowns(bodies, both, &mut unknowns);
+    let mut unknowns = unknowns_of_both(&contacts, bodies);
     unknowns.number_first(Side::Receptacle);
     let (order, core) = (unknowns.nodes.len(), unknowns.count(Side::Receptacle));
     let reach = contacts.reach(bodies, Side::Receptacle);
