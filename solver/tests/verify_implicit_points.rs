@@ -69,7 +69,7 @@ fn lives(name: &str, scene: &Scene) -> ([f64; 2], Summary) {
 
 fn computed(scene: &Scene) -> Scene {
     let mut computed = scene.clone();
-    computed.accuracy.tuning.implicit_jumps_of_points = false;
+    computed.accuracy.tuning.implicit_jumps = false;
     computed
 }
 

@@ -99,7 +99,7 @@ pub struct PointAccuracy {
     pub cycle_jump: Option<u64>,
     /// Factor on the number of computed cycles: jumps, and what bounds them, are divided by it.
     pub cycles_refinement: f64,
-    /// True if jumps are implicit in the worn shapes where they can be and where that saves work (`Tuning::implicit_jumps_of_points`).
+    /// True if jumps are implicit in the worn shapes where they can be and where that saves work (`Tuning::implicit_jumps`).
     pub implicit_jumps: bool,
 }
 
@@ -159,7 +159,7 @@ impl PointAccuracy {
             step_over_half_length: step / refinement.increments,
             cycle_jump: accuracy.cycle_jump,
             cycles_refinement: refinement.cycles,
-            implicit_jumps: accuracy.tuning.implicit_jumps_of_points,
+            implicit_jumps: accuracy.tuning.implicit_jumps,
             ..chosen
         }
     }

@@ -211,12 +211,9 @@ pub struct Tuning {
     /// Share of the squared leading-edge step in the squared half-width of a contact in gross sliding: 0.27 to 0.47 on
     /// all systems at tolerances of 10 and 2 %, with jumps of 1 to 300 cycles.
     pub step_share: f64,
-    /// True if jumps are implicit in the worn shapes where they can be (`cycle/implicit.rs`): `verify_implicit_jumps.rs` states what that saves.
-    /// No specification sets it.
+    /// True if jumps are implicit in the worn shapes where they can be (`cycle/implicit.rs`, `point/integrator/implicit.rs`):
+    /// `verify_implicit_jumps.rs` and `verify_implicit_points.rs` state what that saves. No specification sets it.
     pub implicit_jumps: bool,
-    /// The same for point contacts (`point/integrator/implicit.rs`), which `implicit_jumps` does not switch: `verify_implicit_points.rs` states what that
-    /// saves.
-    pub implicit_jumps_of_points: bool,
 }
 
 impl Tuning {
@@ -277,7 +274,6 @@ impl Tuning {
         surrogate_half_width: 1.3,
         step_share: 0.42,
         implicit_jumps: true,
-        implicit_jumps_of_points: true,
     };
 }
 
