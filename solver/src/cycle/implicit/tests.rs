@@ -170,6 +170,16 @@ fn settled(integrator: &mut Integrator<'_>, state: &CycleState) -> Contacts {
     contacts
 }
 
+/// The bodies of a state.
+fn bodies<'a>(integrator: &'a Integrator<'_>, state: &'a CycleState) -> Bodies<'a> {
+    Bodies::of(
+        &integrator.pair,
+        &integrator.slope,
+        &state.depth,
+        state.contact.indentation,
+    )
+}
+
 /// Unknown doses where both sides wear.
 fn unknowns_of_both(contacts: &Contacts, bodies: Bodies<'_>) -> DoseUnknowns {
     let mut unknowns = DoseUnknowns::default();
@@ -186,12 +196,7 @@ fn the_change_of_doses_with_depths_is_that_of_differences() {
     let bench = Bench::new(scene());
     let (mut integrator, state) = bench.begin();
     let mut contacts = settled(&mut integrator, &state);
-    let bodies = Bodies::of(
-        &integrator.pair,
-        &integrator.slope,
-        &state.depth,
-        state.contact.indentation,
-    );
+    let bodies = bodies(&integrator, &state);
     let unknowns = unknowns_of_both(&contacts, bodies);
     let mut matrix = BorderedBand::default();
     matrix.reset(0, 0, unknowns.nodes.len());
@@ -218,12 +223,7 @@ fn a_banded_system_of_doses_has_the_solution_of_the_dense_one() {
     let bench = Bench::new(scene());
     let (mut integrator, state) = bench.begin();
     let mut contacts = settled(&mut integrator, &state);
-    let bodies = Bodies::of(
-        &integrator.pair,
-        &integrator.slope,
-        &state.depth,
-        state.contact.indentation,
-    );
+    let bodies = bodies(&integrator, &state);
     let mut unknowns = unknowns_of_both(&contacts, bodies);
     unknowns.number_first(Side::Receptacle);
     let (order, core) = (unknowns.nodes.len(), unknowns.count(Side::Receptacle));
@@ -253,12 +253,7 @@ fn a_jump_ends_where_its_doses_are_those_of_its_last_shapes() {
     let (mut integrator, state) = bench.begin();
     let laws = DoseLaws::of(&integrator.wear).expect("both wear by dose");
     let mut contacts = settled(&mut integrator, &state);
-    let bodies = Bodies::of(
-        &integrator.pair,
-        &integrator.slope,
-        &state.depth,
-        state.contact.indentation,
-    );
+    let bodies = bodies(&integrator, &state);
     // Through the gold in the middle of the tip.
     let cycles = 4_000.0;
     let unworn = laws.doses(&state.depth);
