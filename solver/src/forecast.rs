@@ -67,6 +67,9 @@ pub struct Segment {
     pub solved: usize,
 }
 
+/// Numbers of a contact of an implicit jump per pair of its nodes: its inverse, its responses and what they have grown by.
+const HELD_OF_PAIR: f64 = 4.0;
+
 /// Estimated work of a run.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Forecast {
@@ -79,8 +82,8 @@ pub struct Forecast {
     /// Natural logarithm of the cycles at the end over those at which a layer was worn through to one that wears much faster; 0 where none is, or
     /// where all jumps may be implicit, which its edge does not hold back.
     pub fast_layer: f64,
-    /// Pairs of nodes in the contacts that an implicit jump holds at all of its positions at once, at most.
-    pub held_pairs: f64,
+    /// Numbers that an implicit jump holds for the contacts at all of its positions at once, at most.
+    pub held_numbers: f64,
 }
 
 impl Forecast {
@@ -167,8 +170,9 @@ pub fn forecast(scene: &Scene, layout: &Layout) -> Forecast {
         };
         let solved = solved(x, scar);
         if implicit.is_some() {
-            let pairs = real(positions_of_implicit_jumps(plan.steps)) * real(solved).powi(2);
-            run.held_pairs = run.held_pairs.max(pairs);
+            let positions = real(positions_of_implicit_jumps(plan.steps));
+            let held = HELD_OF_PAIR * positions * real(solved).powi(2);
+            run.held_numbers = run.held_numbers.max(held);
         }
         match implicit {
             Some(implicit) => jump.update_implicit(implicit.wear(scar, &before, done), done),

@@ -23,9 +23,9 @@ const MEMORY_PAIR_MB: f64 = 2.4e-4;
 const STORED_PAIR_MB: f64 = 32e-6;
 /// Memory of the operators of a further section along a line, per pair of nodes of its larger surface, MB.
 const OPERATOR_PAIR_MB: f64 = 3.2e-5;
-/// Memory of the contacts at all positions of an implicit jump, per pair of nodes, MB: their inverses and responses. 50 000 cycles of `sd_card`,
-/// `dimm` and `zif` take 17 to 20 MB more than one, where 19 to 20 are estimated.
-const HELD_PAIR_MB: f64 = 32e-6;
+/// Memory of a number of the contacts at all positions of an implicit jump, MB. 50 000 cycles of `sd_card`, `dimm` and `zif` take 17 to 20 MB more
+/// than one, where 19 to 20 are estimated.
+const HELD_NUMBER_MB: f64 = 8e-6;
 /// Fields at one position: bytes per unknown.
 const FIELDS_DOF_BYTES: f64 = 101.0;
 /// Fields along a line at one position: compressed bytes per unknown of a section, for each of the whole line. `fretwear solve` of 20 cycles
@@ -85,7 +85,10 @@ impl Footprint {
         Self {
             contact_element_mm: point_cell_mm(scene),
             dofs: window,
-            memory_mb: MEMORY_BASE_MB + MEMORY_CELL_MB * window + MEMORY_SURFACE_MB * surfaces,
+            memory_mb: MEMORY_BASE_MB
+                + MEMORY_CELL_MB * window
+                + MEMORY_SURFACE_MB * surfaces
+                + HELD_NUMBER_MB * workload.held_numbers,
             output_mb: 1e-6 * bytes,
         }
     }
@@ -121,7 +124,7 @@ impl Footprint {
                 + MEMORY_PAIR_MB * joint * joint
                 + STORED_PAIR_MB * stored * planes * planes
                 + own * OPERATOR_PAIR_MB * surface * surface
-                + HELD_PAIR_MB * workload.held_pairs
+                + HELD_NUMBER_MB * workload.held_numbers
                 + memory_of_fields(scene, dofs),
             output_mb: 1e-6 * bytes,
         }

@@ -32,8 +32,8 @@ pub struct Workload {
     pub cell_iterations: f64,
     /// Cells of the windows and of the surfaces of a point contact at most.
     pub cells: (f64, f64),
-    /// Pairs of nodes in the contacts of all positions of an implicit jump, at most.
-    pub held_pairs: f64,
+    /// Numbers that an implicit jump holds for the contacts at all of its positions at once, at most.
+    pub held_numbers: f64,
     /// Sections along a line; 1 of a section.
     pub stations: usize,
     /// Node planes of extruded bodies, which are condensed together; 1 of others.
@@ -88,7 +88,7 @@ impl Workload {
             interiors: interiors(scene, layout),
             cell_iterations: 0.0,
             cells: (0.0, 0.0),
-            held_pairs: 0.0,
+            held_numbers: 0.0,
             stations: forecast.stations,
             planes: forecast.planes,
             left_out: left_out(scene, forecast.fast_layer > LONG_EDGE),
@@ -107,7 +107,7 @@ impl Workload {
             interiors: [Condensations::NONE; 2],
             cell_iterations: forecast.cell_iterations,
             cells: (real(forecast.most_cells), real(forecast.surface_cells)),
-            held_pairs: 0.0,
+            held_numbers: forecast.held_numbers,
             stations: 1,
             planes: 1,
             left_out: left_out(scene, true),
@@ -137,7 +137,7 @@ impl Workload {
             interiors: [Condensations::NONE; 2],
             cell_iterations: 0.0,
             cells: (0.0, 0.0),
-            held_pairs: forecast.held_pairs,
+            held_numbers: forecast.held_numbers,
             stations: 1,
             planes: 1,
             left_out: left_out(scene, forecast.fast_layer > LONG_EDGE),

@@ -34,6 +34,8 @@ pub struct PointForecast {
     pub most_cells: usize,
     /// Most cells of the grids of both bodies together.
     pub surface_cells: usize,
+    /// Numbers that an implicit jump holds for the contacts at all of its positions at once, at most.
+    pub held_numbers: f64,
     /// Contact solves over the cycles of the run.
     pub course: Course,
 }
@@ -46,6 +48,8 @@ const AT_LAYERS: f64 = 0.06;
 /// Solves of an implicit jump beside those at its positions, and iterations of each where it wears little against the indentation.
 const SOLVES_AT_THE_END: usize = 2;
 const ITERATIONS_OF_IMPLICIT: f64 = 20.0;
+/// Fields of an implicit jump at each position: pressures before and after it, and those of `CyclePressures`.
+const HELD_OF_CELL: f64 = 15.0;
 /// Half-length of the window over that of the contact; mean over a run of windows that widen by thirds.
 const WINDOW: f64 = 1.6;
 /// Iterations of a solve: about 12 of an unworn contact, 3 to 8 where it wears.
@@ -248,6 +252,8 @@ struct Solving {
     solves: usize,
     /// Iterations of each.
     iterations: f64,
+    /// Numbers that an implicit jump holds.
+    held_numbers: f64,
     /// Repetitions of each.
     repetitions: f64,
     cells: f64,
@@ -265,6 +271,7 @@ impl Solving {
         Self {
             solves,
             iterations,
+            held_numbers: 0.0,
             repetitions: 1.0,
             cells: along * 2.0 * WINDOW * per_half * coarsened(worn.across / unworn.1),
         }
@@ -278,6 +285,7 @@ impl Solving {
         let mean_length = (worn.along * worn.across).sqrt();
         let indentation = contact.force_n / (2.0 * contact.modulus() * mean_length);
         self.solves = 2 * positions + SOLVES_AT_THE_END;
+        self.held_numbers = HELD_OF_CELL * real(positions) * self.cells;
         self.iterations = ITERATIONS_OF_IMPLICIT * (1.0 + depth / indentation).sqrt();
     }
 }
@@ -293,6 +301,7 @@ impl PointForecast {
         self.cell_iterations +=
             computed * solving.repetitions * solves * solving.iterations * solving.cells;
         self.most_cells = self.most_cells.max(count_at_least(solving.cells));
+        self.held_numbers = self.held_numbers.max(solving.held_numbers);
     }
 }
 

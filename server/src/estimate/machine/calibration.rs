@@ -209,7 +209,7 @@ mod tests {
                 interiors: [Condensations { count: 0.0, ..body }; 2],
                 cell_iterations: 0.0,
                 cells: (0.0, 0.0),
-                held_pairs: 0.0,
+                held_numbers: 0.0,
                 stations: 1,
                 planes: 1,
                 left_out: LeftOut::Little,
