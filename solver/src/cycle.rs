@@ -36,7 +36,7 @@ use crate::closed_form::expected_wear;
 use crate::condensation::Operators;
 use crate::contact::{self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces};
 use crate::law::surface::SurfaceWear;
-use crate::model::friction::ContactFriction;
+use crate::model::friction::{ContactFriction, CycleFriction};
 use crate::model::{Interface, Model, Tangential};
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::{Motion, Scene, TimedMotion};
@@ -84,8 +84,8 @@ pub struct Integrator<'a> {
     /// Heating of the contact, if it is simulated.
     heating: Option<Heating>,
     friction: ContactFriction,
-    /// Coefficients of friction at the nodes of the surfaces that it differs on, from there on too, -.
-    nodal_friction: Sides<Option<Vec<f64>>>,
+    /// Coefficients of the present computed cycle.
+    cycle_friction: CycleFriction,
     pub(crate) spines: Spines,
     /// Cycles until the end of the run, estimated where it stops at a depth.
     expected_cycles: u64,
@@ -117,7 +117,7 @@ impl<'a> Integrator<'a> {
             wear,
             heating,
             friction: ContactFriction::new(scene, &model.interface.wear, model.surface.plating),
-            nodal_friction: Sides::default(),
+            cycle_friction: CycleFriction::default(),
             spines: Spines::of(model),
             expected_cycles: expected_wear::expected_cycles(scene, model.sizes.hertz_half_width),
             timed,
@@ -192,14 +192,14 @@ impl<'a> Integrator<'a> {
 
     /// The surfaces as worn in a state, with slopes.
     fn surfaces<'b>(
-        nodal_friction: &'b Sides<Option<Vec<f64>>>,
+        friction: &'b CycleFriction,
         depth: &'b Sides<Vec<f64>>,
         slope: &'b Sides<Vec<f64>>,
     ) -> Surfaces<'b> {
         Surfaces {
             depth: depth.as_slices(),
             slope: slope.as_slices(),
-            friction: nodal_friction.as_ref().map(|nodes| nodes.as_deref()),
+            friction: friction.nodal(),
         }
     }
 

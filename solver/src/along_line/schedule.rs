@@ -7,7 +7,7 @@ use crate::scene::{Motion, Scene};
 use crate::schedule::jump::JumpControl;
 use crate::schedule::plan::{CyclePlan, Cycles, Followed};
 use crate::schedule::stroke::{Movement, Stroke};
-use crate::sides::{Side, Sides};
+use crate::sides::Sides;
 
 /// A section whose jumps and increments are chosen.
 pub(crate) struct FollowedSection<'a> {
@@ -59,12 +59,8 @@ impl FollowedSection<'_> {
         CyclePlan::new(self.motion, accuracy, followed, stroke, cycles, false)
     }
 
-    /// A shorter jump where a rate depends on the depth and the estimated error far exceeds what it may be.
+    /// A shorter jump where the estimated error of one far exceeds what it may be.
     pub(crate) fn shorter_jump(&self, control: &JumpControl, jump: u64) -> Option<u64> {
-        let by_depth = |side| (self.wear.of(side)).is_some_and(SurfaceWear::depends_on_depth);
-        if !Side::BOTH.into_iter().any(by_depth) {
-            return None;
-        }
-        control.rejected(&self.plane.accuracy, self.stroke(), jump)
+        control.shorter(self.plane, &self.wear, self.stroke(), jump)
     }
 }

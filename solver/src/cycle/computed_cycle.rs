@@ -13,7 +13,6 @@ use crate::schedule::attempts::longest_accepted_jump;
 use crate::schedule::equivalent_wear::EquivalentWear;
 use crate::schedule::plan::Followed;
 use crate::schedule::stroke::{Movement, Stroke};
-use crate::sides::Side;
 
 /// Load at a turning point over that at the neutral position from which on a groove is not extrapolated: where a spring has
 /// faded on the floor, all wear is that of the walls, which the rate of a groove under an even load does not describe. Arbitrary:
@@ -51,22 +50,14 @@ impl Integrator<'_> {
         longest_accepted_jump(&mut attempts, jump).map(|(_, record)| record)
     }
 
-    /// A shorter jump where the estimated error of one far exceeds what it may be, as where it has passed an interface of a
-    /// plating: the rate before does not foresee that behind it. Of surfaces whose rate depends on their depth.
+    /// A shorter jump where the estimated error of one far exceeds what it may be.
     pub(super) fn shorter_jump(
         &self,
         state: &CycleState,
         stroke: Stroke,
         jump: u64,
     ) -> Option<u64> {
-        let wear = self.wear;
-        let by_depth = |wear: Option<SurfaceWear>| wear.is_some_and(SurfaceWear::depends_on_depth);
-        let friction = |side| self.scene.friction.follows_wear_of(side);
-        let mut sides = Side::BOTH.into_iter();
-        if !sides.any(|side| by_depth(*wear.of(side)) || friction(side)) {
-            return None;
-        }
-        state.jump.rejected(&self.scene.accuracy, stroke, jump)
+        state.jump.shorter(self.scene, &self.wear, stroke, jump)
     }
 
     /// Measures what the next jump depends on; returns the error by the change of friction.
@@ -80,7 +71,8 @@ impl Integrator<'_> {
             after: &state.depth,
         };
         let worn = EquivalentWear::new(&self.wear, widths, depth);
-        let friction = self.change_of_friction(depth, worn.depths());
+        let friction = &self.friction;
+        let friction = friction.change_at_nodes(&self.wear, widths, depth, worn.depths());
         state
             .jump
             .update(worn.weights(), friction, worn.depths(), done);

@@ -2,24 +2,18 @@
 //!
 //! A coefficient by cycle is the mean of the cycles that the computed one represents, so that the dissipated energy of gross slip is
 //! exact. A coefficient by dose or by layer is that of the depths at the beginning of the computed cycle: an Euler step, whose error is
-//! part of that of the jump,
-//!   1/2 sum w dD |mu_after - mu_before| / sum w dD mu_after
-//! over the nodes of both surfaces with their widths w and doses dD: that of the energy dissipated in gross slip.
+//! part of that of the jump (`ContactFriction::change`).
 
 use super::{CycleState, Integrator};
-use crate::change::Change;
-use crate::law::surface::SurfaceWear;
 use crate::model::friction::ContactFriction;
 use crate::number::real_cycles;
-use crate::sides::{Side, Sides};
 
 impl Integrator<'_> {
     /// Updates the friction to the worn surfaces and to so many cycles from now.
     pub(super) fn update_friction(&mut self, state: &CycleState, cycles: f64) {
-        self.nodal_friction = self.friction.nodal(&state.depth);
-        let from = real_cycles(state.cycle);
-        let (friction, nodal) = (&self.friction, &self.nodal_friction);
-        self.pair.interface.friction = friction.between(from, from + cycles, nodal);
+        let done = real_cycles(state.cycle);
+        self.cycle_friction = self.friction.in_cycles(&state.depth, done..done + cycles);
+        self.pair.interface.friction = self.cycle_friction.coefficient;
     }
 
     /// Mean coefficient of friction since a number of cycles over that of the last computed cycle, -; 1 where places differ in it, whose
@@ -50,36 +44,6 @@ impl Integrator<'_> {
         let extrapolated = all - state.energy_per_cycle * real_cycles(computed);
         if !is_even && old > 0.0 && new > 0.0 && extrapolated > 0.0 {
             state.energy += 0.5 * extrapolated * (new / old - 1.0);
-        }
-    }
-
-    /// Half the relative change of the coefficient of friction from one state to another, both given by their worn depths and
-    /// their equivalents, mm; none where it is the same everywhere.
-    pub(super) fn change_of_friction(
-        &self,
-        depth: Change<&Sides<Vec<f64>>>,
-        worn: Change<Sides<&[f64]>>,
-    ) -> f64 {
-        let (mut change, mut total) = (0.0, 0.0);
-        for side in Side::BOTH {
-            let Some(friction) = self.friction.of_surface(side) else {
-                continue;
-            };
-            let depths = depth.before.of(side).iter().zip(depth.after.of(side));
-            let worn = worn.before.of(side).iter().zip(*worn.after.of(side));
-            let widths = &self.pair.operators.of(side).widths;
-            let rate = self.wear.of(side).and_then(SurfaceWear::dose_rate);
-            let rate = rate.unwrap_or(1.0);
-            for (((before, after), (from, to)), width) in depths.zip(worn).zip(widths) {
-                let (dose, mu) = (width * (to - from) / rate, friction.at(*after));
-                change += dose * (mu - friction.at(*before)).abs();
-                total += dose * mu;
-            }
-        }
-        if total > 0.0 {
-            0.5 * change / total
-        } else {
-            0.0
         }
     }
 }

@@ -34,7 +34,7 @@ impl Integrator<'_> {
         state: &mut CycleState,
         to: Displacement<'_>,
     ) -> Result<(), ContactError> {
-        let surfaces = Self::surfaces(&self.nodal_friction, &state.depth, &self.slope);
+        let surfaces = Self::surfaces(&self.cycle_friction, &state.depth, &self.slope);
         let last = &state.contact;
         let pace = self.timed.between(self.stroke, last.slider_x, to.slider_x);
         let distance = (to.slider_x - last.slider_x).abs() + to.surface_slip.abs();
@@ -83,7 +83,7 @@ impl Integrator<'_> {
     /// The balance of forces with the normals of the surfaces as worn now.
     pub(super) fn force_balance_with_present_normals(&mut self, state: &CycleState) -> f64 {
         let slope = slopes_of_both(self.pair.operators, &state.depth);
-        let surfaces = Self::surfaces(&self.nodal_friction, &state.depth, &slope);
+        let surfaces = Self::surfaces(&self.cycle_friction, &state.depth, &slope);
         self.solver
             .force_balance_on(&self.pair, &surfaces, &state.contact)
     }

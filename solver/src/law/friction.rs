@@ -108,6 +108,45 @@ pub(crate) fn of_both(surfaces: Sides<Option<f64>>) -> Option<f64> {
     }
 }
 
+/// Coefficients of friction at places of a contact, -.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Coefficients<'a> {
+    /// The same at all of them.
+    Uniform(f64),
+    /// Coefficient of each place.
+    Local(&'a [f64]),
+}
+
+impl Coefficients<'_> {
+    /// Coefficient of a place.
+    #[inline]
+    pub(crate) fn at(self, place: usize) -> f64 {
+        match self {
+            Self::Uniform(coefficient) => coefficient,
+            Self::Local(coefficients) => coefficients[place],
+        }
+    }
+
+    /// Largest coefficient.
+    pub(crate) fn largest(self) -> f64 {
+        match self {
+            Self::Uniform(coefficient) => coefficient,
+            Self::Local(coefficients) => {
+                let places = coefficients.iter();
+                places.fold(0.0, |most: f64, mu| most.max(*mu))
+            }
+        }
+    }
+
+    /// Mean coefficient with weights of the places; that of the first one where no weight counts. Exact where all are the same.
+    pub(crate) fn mean(self, weights: impl Iterator<Item = f64>) -> f64 {
+        match self {
+            Self::Uniform(coefficient) => coefficient,
+            Self::Local(coefficients) => weighted_mean(coefficients, weights),
+        }
+    }
+}
+
 /// Mean of coefficients, -, with weights; the first one where no weight counts. Exact where all are the same.
 pub(crate) fn weighted_mean(coefficients: &[f64], weights: impl Iterator<Item = f64>) -> f64 {
     let first = coefficients.first().copied().unwrap_or(0.0);

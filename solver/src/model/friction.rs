@@ -3,7 +3,10 @@
 //! The dose of a place is the one that its worn depth stands for (`law::plating`), and the layer that lies open there is that of the
 //! depth, so that neither is a state of its own.
 
-use crate::law::friction::{Friction, Table, of_both};
+use std::ops::Range;
+
+use crate::change::Change;
+use crate::law::friction::{Coefficients, Friction, Table, of_both};
 use crate::law::plating::bottoms;
 use crate::law::surface::SurfaceWear;
 use crate::scene::Scene;
@@ -16,6 +19,15 @@ pub(crate) enum ContactFriction {
     Uniform(Table),
     /// Friction of each surface, of at least one of them.
     BySurface(Box<Sides<Option<SurfaceFriction>>>),
+}
+
+/// Coefficients of friction in a computed cycle.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct CycleFriction {
+    /// Mean of the cycles that the computed one represents, -; the largest where places differ in it.
+    pub(crate) coefficient: f64,
+    /// Coefficients at the nodes of the surfaces that it differs on, -.
+    nodal: Sides<Option<Vec<f64>>>,
 }
 
 /// Coefficients of friction of a surface over its worn depth.
@@ -40,10 +52,12 @@ pub(crate) enum SurfaceFriction {
 impl ContactFriction {
     /// Friction of a scene whose surfaces wear in this way, through the layers of their platings or by the outermost one alone.
     pub(crate) fn new(scene: &Scene, wear: &Sides<Option<SurfaceWear>>, layered: bool) -> Self {
-        let constant = |coefficient| Self::Uniform(Table::new(&[(0.0, coefficient)]));
+        if !scene.friction.changes() {
+            return Self::constant(scene.friction.unworn());
+        }
         let surfaces = match &scene.friction {
             Friction::Frictionless | Friction::Coulomb { .. } => {
-                return constant(scene.friction.unworn());
+                return Self::constant(scene.friction.unworn());
             }
             Friction::ByCycle(table) => return Self::Uniform(table.clone()),
             Friction::ByDose(table) => {
@@ -55,7 +69,7 @@ impl ContactFriction {
         };
         if surfaces.slider.is_none() && surfaces.receptacle.is_none() {
             // Nothing wears, and so nothing changes.
-            return constant(scene.friction.unworn());
+            return Self::constant(scene.friction.unworn());
         }
         Self::BySurface(Box::new(surfaces))
     }
@@ -68,27 +82,89 @@ impl ContactFriction {
         }
     }
 
-    /// The mean coefficient from one number of cycles to another, -; of places that differ the largest of those of both surfaces.
-    pub(crate) fn between(&self, from: f64, to: f64, nodal: &Sides<Option<Vec<f64>>>) -> f64 {
+    /// The same coefficient everywhere and always, -.
+    pub(crate) fn constant(coefficient: f64) -> Self {
+        Self::Uniform(Table::new(&[(0.0, coefficient)]))
+    }
+
+    /// Coefficients from one number of cycles to another on surfaces of these worn depths, mm.
+    pub(crate) fn in_cycles(&self, depth: &Sides<Vec<f64>>, cycles: Range<f64>) -> CycleFriction {
         match self {
-            Self::Uniform(table) => table.mean(from, to),
+            Self::Uniform(table) => CycleFriction {
+                coefficient: table.mean(cycles.start, cycles.end),
+                nodal: Sides::default(),
+            },
             Self::BySurface(_) => {
+                let nodal = self.nodal(depth);
                 let most = nodal.as_ref().map(|nodes| {
-                    let nodes = nodes.as_ref()?.iter();
-                    Some(nodes.fold(0.0, |most: f64, mu| most.max(*mu)))
+                    let nodes = nodes.as_ref()?;
+                    Some(Coefficients::Local(nodes).largest())
                 });
-                of_both(most).unwrap_or(0.0)
+                CycleFriction {
+                    coefficient: of_both(most).unwrap_or(0.0),
+                    nodal,
+                }
             }
         }
     }
 
     /// Coefficients at the nodes of the surfaces with these depths, mm.
-    pub(crate) fn nodal(&self, depth: &Sides<Vec<f64>>) -> Sides<Option<Vec<f64>>> {
+    fn nodal(&self, depth: &Sides<Vec<f64>>) -> Sides<Option<Vec<f64>>> {
         Sides::from_fn(|side| {
             let surface = self.of_surface(side)?;
             let nodes = depth.of(side).iter();
             Some(nodes.map(|depth| surface.at(*depth)).collect())
         })
+    }
+
+    /// Half the relative change of the coefficient over a computed cycle that changes the depths of the surfaces, mm, by doses that each place
+    /// has received times its size,
+    ///   1/2 sum w dD |mu_after - mu_before| / sum w dD mu_after:
+    /// the error of the energy of gross slip by the coefficients of its beginning; 0 where all places have one.
+    pub(crate) fn change(
+        &self,
+        depth: Change<&Sides<Vec<f64>>>,
+        dose: impl Fn(Side, usize) -> f64,
+    ) -> f64 {
+        let (mut change, mut total) = (0.0, 0.0);
+        for side in Side::BOTH {
+            let Some(friction) = self.of_surface(side) else {
+                continue;
+            };
+            let depths = depth.before.of(side).iter().zip(depth.after.of(side));
+            for (place, (before, after)) in depths.enumerate() {
+                let (dose, mu) = (dose(side, place), friction.at(*after));
+                change += dose * (mu - friction.at(*before)).abs();
+                total += dose * mu;
+            }
+        }
+        if total > 0.0 {
+            0.5 * change / total
+        } else {
+            0.0
+        }
+    }
+
+    /// The same for nodes of these widths whose equivalent depths change, mm.
+    pub(crate) fn change_at_nodes(
+        &self,
+        wear: &Sides<Option<SurfaceWear>>,
+        widths: Sides<&[f64]>,
+        depth: Change<&Sides<Vec<f64>>>,
+        worn: Change<Sides<&[f64]>>,
+    ) -> f64 {
+        let rates = wear.map(|wear| wear.and_then(SurfaceWear::dose_rate).unwrap_or(1.0));
+        self.change(depth, |side, node| {
+            let (before, after) = (worn.before.of(side)[node], worn.after.of(side)[node]);
+            widths.of(side)[node] * (after - before) / rates.of(side)
+        })
+    }
+}
+
+impl CycleFriction {
+    /// Coefficients at the nodes of the surfaces that it differs on, -.
+    pub(crate) fn nodal(&self) -> Sides<Option<&[f64]>> {
+        self.nodal.as_ref().map(|nodes| nodes.as_deref())
     }
 }
 
@@ -206,7 +282,7 @@ mod tests {
         scene.friction = Friction::ByDose(table);
         let unworn = ContactFriction::new(&scene, &Sides::default(), true);
         assert_eq!(unworn, ContactFriction::Uniform(Table::new(&[(0.0, 0.2)])));
-        let nodal = Sides::default();
-        assert!((unworn.between(5.0, 6.0, &nodal) - 0.2).abs() < 1e-15);
+        let found = unworn.in_cycles(&Sides::default(), 5.0..6.0);
+        assert!((found.coefficient - 0.2).abs() < 1e-15);
     }
 }

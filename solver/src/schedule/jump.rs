@@ -13,8 +13,9 @@ use serde::{Deserialize, Serialize};
 
 use super::stroke::Stroke;
 use crate::change::Change;
+use crate::law::surface::SurfaceWear;
 use crate::number::{cycles_at_least, real, real_cycles};
-use crate::scene::Accuracy;
+use crate::scene::{Accuracy, Scene};
 use crate::sides::{Side, Sides};
 pub(crate) use formula::Formula;
 
@@ -92,9 +93,27 @@ impl JumpControl {
         }
     }
 
-    /// A smaller jump in place of a long one whose estimated error is too large; `None` if it is accepted, or was fixed by the
-    /// scene.
-    pub(crate) fn rejected(&self, accuracy: &Accuracy, stroke: Stroke, jump: u64) -> Option<u64> {
+    /// A smaller jump in place of a long one whose estimated error far exceeds what it may be, as where it has passed an interface of a
+    /// plating: the rate before does not foresee that behind it. `None` if the jump is accepted, or was fixed by the scene, or where neither a
+    /// rate nor the friction depends on the depth of a surface.
+    pub(crate) fn shorter(
+        &self,
+        scene: &Scene,
+        wear: &Sides<Option<SurfaceWear>>,
+        stroke: Stroke,
+        jump: u64,
+    ) -> Option<u64> {
+        let by_depth = |wear: Option<SurfaceWear>| wear.is_some_and(SurfaceWear::depends_on_depth);
+        let friction = |side| scene.friction.follows_wear_of(side);
+        let mut sides = Side::BOTH.into_iter();
+        if !sides.any(|side| by_depth(*wear.of(side)) || friction(side)) {
+            return None;
+        }
+        self.rejected(&scene.accuracy, stroke, jump)
+    }
+
+    /// The same whatever depends on the depth.
+    fn rejected(&self, accuracy: &Accuracy, stroke: Stroke, jump: u64) -> Option<u64> {
         let allowed = stroke.largest_error(accuracy) / accuracy.refinement.cycles;
         let error = self.error.max(self.friction);
         let is_rejected = accuracy.cycle_jump.is_none() && error > REJECTED * allowed;

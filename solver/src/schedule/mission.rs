@@ -106,7 +106,8 @@ fn rounds(
     let share = accuracy.tuning.repetitions_of_done.at(accuracy.tolerance);
     let cycles_a_round =
         real_cycles(mission.cycles()) * real_cycles(mission.repeat) / real_cycles(mission.rounds());
-    let even = even_friction(scene, now.cycle) / cycles_a_round;
+    let by_cycle = scene.friction.by_cycle();
+    let even = even_friction(by_cycle, accuracy.tolerance, now.cycle) / cycles_a_round;
     let refinement = accuracy.refinement.cycles;
     let most = (share / refinement * real_cycles(done)).min(even / refinement);
     // Those before the round in which a cycle is hit exactly.

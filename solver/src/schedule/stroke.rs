@@ -1,7 +1,7 @@
 //! Stroke of a contact, and how far it limits a jump.
 
 use crate::number::real_cycles;
-use crate::scene::{Accuracy, Motion, Scene, Tuning};
+use crate::scene::{Accuracy, Motion, Scene, Table, Tuning};
 use crate::sides::Sides;
 
 /// A computed cycle wears `jump` passes at once, so that scar and pressure are skewed toward the last pass, the
@@ -112,7 +112,8 @@ impl Stroke {
 
     /// Limits jumps from a number of cycles on by the change of a coefficient of friction by cycle.
     pub(crate) fn limit_change_of_friction(&mut self, scene: &Scene, done: u64) {
-        self.even_friction = even_friction(scene, done);
+        let tolerance = scene.accuracy.tolerance;
+        self.even_friction = even_friction(scene.friction.by_cycle(), tolerance, done);
     }
 
     /// One that turns between its outermost turning points: several passes of different lengths wear the groove, which the
@@ -168,11 +169,11 @@ impl Stroke {
     }
 }
 
-/// Cycles after so many within which a coefficient of friction by cycle changes by as much as it may in a jump.
-pub(crate) fn even_friction(scene: &Scene, done: u64) -> f64 {
-    let part = CHANGE_OF_FRICTION * scene.accuracy.tolerance;
-    let table = scene.friction.by_cycle();
-    table.map_or(f64::INFINITY, |table| {
+/// Cycles after so many within which a coefficient of friction by cycle changes by as much as it may in a jump of a tolerance; without
+/// bound where places differ in it.
+pub(crate) fn even_friction(by_cycle: Option<&Table>, tolerance: f64, done: u64) -> f64 {
+    let part = CHANGE_OF_FRICTION * tolerance;
+    by_cycle.map_or(f64::INFINITY, |table| {
         table.distance_of_change(real_cycles(done), part)
     })
 }

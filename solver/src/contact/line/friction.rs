@@ -7,7 +7,7 @@
 //! that of a slider which follows the surface there (`slip_along`).
 
 use super::pair::{Pair, Surfaces};
-use crate::law::friction::{of_both, weighted_mean};
+use crate::law::friction::{Coefficients, of_both, weighted_mean};
 use crate::model::{Interface, Tangential};
 use crate::sides::Sides;
 use std::ops::Range;
@@ -15,24 +15,16 @@ use std::ops::Range;
 /// Coefficient of friction at the coupled nodes, -.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Coefficient<'a> {
-    nodes: Nodes<'a>,
+    /// Those of the nodes from the first coupled one on.
+    nodes: Coefficients<'a>,
     /// Components of the direction of friction across the line and along it at each of them, -; across it if absent.
     directions: &'a [[f64; 2]],
-}
-
-/// The coefficients of the nodes, -.
-#[derive(Debug, Clone, Copy)]
-enum Nodes<'a> {
-    /// The same at all of them.
-    Uniform(f64),
-    /// Coefficient of each node, from the first coupled node on.
-    Nodal(&'a [f64]),
 }
 
 impl<'a> Coefficient<'a> {
     /// No friction.
     pub(super) const NONE: Self = Self {
-        nodes: Nodes::Uniform(0.0),
+        nodes: Coefficients::Uniform(0.0),
         directions: &[],
     };
 
@@ -44,9 +36,9 @@ impl<'a> Coefficient<'a> {
         directions: &'a [[f64; 2]],
     ) -> Self {
         let nodes = if surfaces.has_uniform_friction() {
-            Nodes::Uniform(pair.interface.friction)
+            Coefficients::Uniform(pair.interface.friction)
         } else {
-            Nodes::Nodal(nodal)
+            Coefficients::Local(nodal)
         };
         Self { nodes, directions }
     }
@@ -69,37 +61,21 @@ impl<'a> Coefficient<'a> {
 
     /// The largest friction across the line over the pressure of all coupled nodes.
     pub(super) fn largest(self) -> f64 {
-        let nodes = match self.nodes {
-            Nodes::Uniform(coefficient) if self.directions.is_empty() => return coefficient,
-            Nodes::Uniform(_) => self.directions.len(),
-            Nodes::Nodal(coefficients) => coefficients.len(),
-        };
+        if self.directions.is_empty() {
+            return self.nodes.largest();
+        }
+        let nodes = self.directions.len();
         (0..nodes).fold(0.0, |most, node| self.at(node).max(most))
     }
 
     /// The mean friction across the line over the pressure, weighted by normal forces.
     pub(super) fn mean(self, forces: impl Iterator<Item = f64>) -> f64 {
-        match self.nodes {
-            Nodes::Uniform(coefficient) if self.directions.is_empty() => coefficient,
-            Nodes::Nodal(coefficients) if self.directions.is_empty() => {
-                weighted_mean(coefficients, forces)
-            }
-            Nodes::Uniform(_) | Nodes::Nodal(_) => {
-                let forces: Vec<f64> = forces.collect();
-                let across: Vec<f64> = (0..forces.len()).map(|node| self.at(node)).collect();
-                weighted_mean(&across, forces.into_iter())
-            }
+        if self.directions.is_empty() {
+            return self.nodes.mean(forces);
         }
-    }
-}
-
-impl Nodes<'_> {
-    #[inline]
-    fn at(self, node: usize) -> f64 {
-        match self {
-            Self::Uniform(coefficient) => coefficient,
-            Self::Nodal(coefficients) => coefficients[node],
-        }
+        let forces: Vec<f64> = forces.collect();
+        let across: Vec<f64> = (0..forces.len()).map(|node| self.at(node)).collect();
+        weighted_mean(&across, forces.into_iter())
     }
 }
 
