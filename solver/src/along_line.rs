@@ -19,7 +19,7 @@ pub(crate) use checks::{check_section, check_slip};
 pub(crate) use contact::{SectionedContact, WornSection};
 pub use error::SectionsError;
 pub(crate) use integrator::SectionsIntegrator;
-pub(crate) use record::PositionContacts;
+pub(crate) use record::{PositionContacts, SectionContact};
 pub use run::SectionsOutcome;
 pub(crate) use schedule::FollowedSection;
 pub(crate) use slide::{Sections, SectionsIncrement};
@@ -73,6 +73,8 @@ pub struct StationCycle {
     pub ideal_volume_mm3: Sides<Option<f64>>,
     /// Energy dissipated by friction since the run began, mJ.
     pub dissipated_energy_mj: f64,
+    /// Mean coefficient of friction over the contact at the neutral position, weighted by its pressure, -.
+    pub friction_coefficient: f64,
     /// Largest estimated relative error of the wear of a section in the jump.
     pub jump_error: f64,
     /// Increments of the computed cycle.

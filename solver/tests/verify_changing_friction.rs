@@ -5,6 +5,7 @@
 //! * A film that is worn through at a dose is that of a layer which lasts as long.
 //! * A coefficient that rises lets a contact in partial slip stick on a larger part and wear less.
 
+mod along_lines;
 mod symmetry;
 
 use solver::record::{CycleReport, Outcome, Snapshot};
@@ -45,7 +46,7 @@ pub(crate) fn with(scene: &Scene, friction: Friction) -> Scene {
 }
 
 /// Every bit that a run reports.
-fn bits(scene: &Scene) -> String {
+pub(crate) fn bits(scene: &Scene) -> String {
     let (summary, recorder) = solve(scene).expect("the scene can be solved");
     format!(
         "{:?} {:?} {summary:?}",

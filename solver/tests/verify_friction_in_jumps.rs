@@ -10,7 +10,7 @@ use solver::checkpoint::Checkpoint;
 use solver::observer::{Event, Observer};
 use solver::record::Summary;
 use solver::run;
-use solver::scene::{Barwell, Course, Motion, WearLaw};
+use solver::scene::{Barwell, Course, Motion, Scene, WearLaw};
 use solver::sides::Side;
 
 use crate::verification::recorder::{Recorder, solve};
@@ -37,43 +37,44 @@ impl Observer for CheckpointAt {
     }
 }
 
+/// Depth and area of the receptacle and energy of a run whose coefficient steps from one cycle to the next, over those of a run of one coefficient
+/// that another one continues, less 1.
+pub(crate) fn beside_two_runs(mut scene: Scene, step: u64, [low, high]: [f64; 2]) -> [f64; 3] {
+    let at = f64::from(u16::try_from(step).expect("few cycles"));
+    // Both runs resolve the cycle of the step.
+    scene.output.snapshots_at_cycles = vec![step];
+    let first = with(&scene, constant(low));
+    let mut observer = CheckpointAt(step, None);
+    run::solve(&first, &mut observer).expect("the scene can be solved");
+    let from = observer.1.expect("a checkpoint");
+    let second = with(&scene, constant(high));
+    let expected = run::resume(&second, from, &mut Recorder::default()).expect("it resumes");
+    let stepped = with(&scene, by_cycle(&[(0.0, low), (at, low), (at + 1.0, high)]));
+    let mut recorder = Recorder::default();
+    let found = run::solve(&stepped, &mut recorder).expect("the scene can be solved");
+    assert!(recorder.reports.iter().any(|report| report.cycle == step));
+    let of = |summary: &Summary| {
+        let last = &summary.last;
+        let side = &last.receptacle;
+        [
+            side.max_depth_mm,
+            side.worn_area_mm2,
+            last.dissipated_energy_mj_per_mm,
+        ]
+    };
+    let (found, expected) = (of(&found), of(&expected));
+    std::array::from_fn(|i| found[i] / expected[i] - 1.0)
+}
+
 /// Tolerance 2 %: depths, areas and energies within it, the single cycle between the points included.
 #[test]
 fn a_step_by_cycle_is_two_runs() {
-    for (name, mut scene, step) in [
+    for (name, scene, step) in [
         ("scar", scar(), 700),
         ("groove", groove(), 12),
         ("partial slip", partial_slip(), 1_200),
     ] {
-        let at = f64::from(u16::try_from(step).expect("few cycles"));
-        let [low, high] = [0.4, 0.8];
-        // Both runs resolve the cycle of the step.
-        scene.output.snapshots_at_cycles = vec![step];
-        let first = with(&scene, constant(low));
-        let mut observer = CheckpointAt(step, None);
-        run::solve(&first, &mut observer).expect("the scene can be solved");
-        let from = observer.1.expect("a checkpoint");
-        let second = with(&scene, constant(high));
-        let expected = run::resume(&second, from, &mut Recorder::default()).expect("it resumes");
-        let stepped = with(&scene, by_cycle(&[(0.0, low), (at, low), (at + 1.0, high)]));
-        let mut recorder = Recorder::default();
-        let found = run::solve(&stepped, &mut recorder).expect("the scene can be solved");
-        assert!(recorder.reports.iter().any(|report| report.cycle == step));
-        let ratio = |a: f64, b: f64| a / b - 1.0;
-        let off = [
-            ratio(
-                found.last.receptacle.max_depth_mm,
-                expected.last.receptacle.max_depth_mm,
-            ),
-            ratio(
-                found.last.receptacle.worn_area_mm2,
-                expected.last.receptacle.worn_area_mm2,
-            ),
-            ratio(
-                found.last.dissipated_energy_mj_per_mm,
-                expected.last.dissipated_energy_mj_per_mm,
-            ),
-        ];
+        let off = beside_two_runs(scene, step, [0.4, 0.8]);
         println!("step of friction by cycle, {name}: depth, area, energy off by {off:?}");
         assert!(off.iter().all(|off| off.abs() < 0.02), "{name}: {off:?}");
     }

@@ -1,9 +1,9 @@
-//! Checks of what all sections along a line have in common: motion, friction, wear, and that all of the contact slips.
+//! Checks of what all sections along a line have in common: motion, wear, and that all of the contact slips.
 
 use super::error::SectionsError;
 use crate::closed_form::unworn_contact;
 use crate::number::positive;
-use crate::scene::{Friction, Motion, Scene};
+use crate::scene::{Motion, Scene};
 use crate::sides::Side;
 
 /// Checks a section in each of its motions; returns the largest magnitude of their amplitudes, mm.
@@ -24,17 +24,11 @@ pub(crate) fn check_section(section: &Scene) -> Result<f64, SectionsError> {
     Ok(largest)
 }
 
-/// Checks the motion of a section and its friction; returns the magnitude of the amplitude, mm.
+/// Checks the motion of a section; returns the magnitude of the amplitude, mm.
 fn check_motion(section: &Scene) -> Result<f64, SectionsError> {
     let Motion::Reciprocating { amplitude_mm, .. } = section.motion else {
         return Err(SectionsError::Motion);
     };
-    if !matches!(
-        section.friction,
-        Friction::Coulomb { .. } | Friction::Frictionless
-    ) {
-        return Err(SectionsError::FrictionLaw);
-    }
     let amplitude = amplitude_mm.abs();
     // A block of a mission may be a rest, which wears nothing.
     if section.cycles_at_a_time.is_none() || amplitude != 0.0 {

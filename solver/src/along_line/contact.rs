@@ -96,8 +96,8 @@ pub(crate) trait SectionedContact: Sections + Send {
     /// Takes the contacts of the neutral position of each section.
     fn take_neutral(&mut self, found: &[Neutral]);
 
-    /// The next jump.
-    fn next_jump(&mut self, remaining: u64) -> u64;
+    /// The next jump after so many cycles, at most that of `most`.
+    fn next_jump(&mut self, most: Cycles) -> u64;
     /// Increments and replays of a cycle.
     fn cycle_plan(&self, cycles: Cycles) -> CyclePlan;
     /// Measures the error of a jump; a shorter one where it is too large, with the control as before the jump.

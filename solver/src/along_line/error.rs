@@ -33,9 +33,6 @@ pub enum SectionsError {
         /// The least one, mm.
         least_mm: f64,
     },
-    /// Friction that changes.
-    #[error("sections along a line have one coefficient of friction")]
-    FrictionLaw,
     /// A wear rate that depends on the state.
     #[error("the wear rate of the {side} is not the same in every state")]
     Law {

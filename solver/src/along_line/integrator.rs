@@ -4,7 +4,6 @@ use super::contact::SectionedContact;
 use super::record::LineRecord;
 use super::slide::slide;
 use super::state::{Progress, SectionsState};
-use crate::number::real_cycles;
 use crate::scene::Motion;
 use crate::schedule::attempts::{Attempts, Remedy, in_wide_zones, longest_accepted_jump};
 use crate::schedule::increments;
@@ -105,7 +104,8 @@ impl<C: SectionedContact> SectionsIntegrator<C> {
         self.progress.relocations += self.contact.follow_wear()?;
         let before = self.before();
         let done = self.progress.done;
-        let first = self.contact.next_jump(until.max(done + 1) - done);
+        let jump = until.max(done + 1) - done;
+        let first = self.contact.next_jump(Cycles { done, jump });
         let (jump, record) = longest_accepted_jump(self, first)?;
         let progress = &mut self.progress;
         progress.most_increments = progress.most_increments.max(record.increments());
@@ -150,19 +150,20 @@ impl<C: SectionedContact> SectionsIntegrator<C> {
     /// Takes steps without wear.
     fn slide_unworn(&mut self, steps: &[Step]) -> Result<(), C::Error> {
         in_wide_zones(self, |integrator| {
-            integrator.slide(steps, 0.0, &ReplayPlan::default())?;
+            integrator.slide(steps, 0, &ReplayPlan::default())?;
             Ok(())
         })
     }
 
+    /// Takes steps that stand for a jump.
     fn slide(
         &mut self,
         steps: &[Step],
-        cycles: f64,
+        jump: u64,
         replays: &ReplayPlan,
     ) -> Result<LineRecord, C::Error> {
         let done = self.progress.done;
-        slide(&mut self.contact, steps, cycles, replays)
+        slide(&mut self.contact, steps, Cycles { done, jump }, replays)
             .map_err(|failed| self.contact.failure(done, failed))
     }
 
@@ -206,7 +207,7 @@ impl<C: SectionedContact> Attempts for SectionsIntegrator<C> {
         let done = self.progress.done;
         let plan = self.contact.cycle_plan(Cycles { done, jump });
         let steps = increments::steps(self.contact.motion(), plan.steps);
-        self.slide(&steps, real_cycles(jump), &plan.replays)
+        self.slide(&steps, jump, &plan.replays)
     }
 
     fn rejected(&mut self, before: &Self::Saved, _: &LineRecord, jump: u64) -> Option<u64> {

@@ -10,7 +10,9 @@ pub(crate) struct PositionContacts {
     pub(crate) position: Position,
     pub(crate) slider_x: f64,
     pub(crate) contacts: Vec<ContactState>,
-    /// Their loads, pressures and widths.
+    /// Coefficients of friction at the nodes of each of them from the first in contact to the last, -.
+    pub(crate) friction: Vec<Vec<f64>>,
+    /// Their loads, pressures, widths and mean coefficients of friction.
     pub(crate) found: Vec<Neutral>,
     /// |sum of vertical forces with the normals as worn there - force| over the force.
     pub(crate) imbalance: f64,
@@ -22,6 +24,17 @@ impl PositionContacts {
         let found = others.iter().position(|at| at.position == position);
         found.map(|found| others.swap_remove(found))
     }
+}
+
+/// The contact of a section at a named position.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SectionContact<'a> {
+    pub(crate) position: Position,
+    /// Displacement of the slider, mm.
+    pub(crate) slider_x_mm: f64,
+    pub(crate) contact: &'a ContactState,
+    /// Coefficients of friction at its nodes from the first in contact to the last, -.
+    pub(crate) friction: &'a [f64],
 }
 
 /// Record of a computed cycle.

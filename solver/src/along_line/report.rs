@@ -2,14 +2,14 @@
 
 use super::contact::{SectionedContact, WornSection};
 use super::integrator::{Before, SectionsIntegrator};
+use super::record::SectionContact;
 use super::state::Progress;
 use super::{Ending, StationCycle, StationProfile, StationReport, groove_mm, worn_area_residual};
-use crate::contact::ContactState;
 use crate::cycle::{Checks, FrictionLoop};
+use crate::law::friction::Coefficients;
 use crate::law::surface::{self, SurfaceWear};
 use crate::number::real_cycles;
 use crate::schedule::mission_state::BlockWear;
-use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
 
 impl<C: SectionedContact> SectionsIntegrator<C> {
@@ -56,6 +56,7 @@ impl<C: SectionedContact> SectionsIntegrator<C> {
             sliding_work_volume_mm3: ideal(over_line(&|j| worn[j].path)),
             ideal_volume_mm3: of_load.map(|volume| volume.filter(|_| dead)),
             dissipated_energy_mj: over_line(&|j| worn[j].energy),
+            friction_coefficient: mean_friction(&worn),
             jump_error: contact.jump_error(),
             increments: increments - before.increments,
             iterations: iterations - before.iterations,
@@ -158,13 +159,15 @@ impl<C: SectionedContact> SectionsIntegrator<C> {
         &self.record.friction_loop
     }
 
-    /// Contacts of a section at the named positions of the last computed cycle, with the displacement of the slider, mm.
-    pub(crate) fn contacts(
-        &self,
-        section: usize,
-    ) -> impl Iterator<Item = (Position, f64, &ContactState)> {
+    /// Contacts of a section at the named positions of the last computed cycle.
+    pub(crate) fn contacts(&self, section: usize) -> impl Iterator<Item = SectionContact<'_>> {
         let positions = self.record.positions.iter();
-        positions.map(move |at| (at.position, at.slider_x, &at.contacts[section]))
+        positions.map(move |at| SectionContact {
+            position: at.position,
+            slider_x_mm: at.slider_x,
+            contact: &at.contacts[section],
+            friction: &at.friction[section],
+        })
     }
 
     /// Worn depths of both bodies in a section.
@@ -187,4 +190,13 @@ impl<C: SectionedContact> SectionsIntegrator<C> {
             ..self.contact.checks()
         }
     }
+}
+
+/// Mean coefficient of friction of sections at the neutral position, weighted by their forces, -.
+fn mean_friction(sections: &[WornSection<'_>]) -> f64 {
+    let coefficients = sections.iter().map(|section| section.neutral.friction);
+    let coefficients: Vec<f64> = coefficients.collect();
+    let forces = sections.iter();
+    Coefficients::Local(&coefficients)
+        .mean(forces.map(|section| section.weight_mm * section.neutral.load))
 }

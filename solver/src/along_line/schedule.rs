@@ -24,8 +24,8 @@ pub(crate) struct FollowedSection<'a> {
 }
 
 impl FollowedSection<'_> {
-    /// Limits of the jump besides its error. Every jump wears in the increments of one cycle: nothing is extrapolated in a groove.
-    pub(crate) fn stroke(&self) -> Stroke {
+    /// Limits of the jump besides its error and the change of the friction. Every jump wears in the increments of one cycle: nothing is extrapolated in a groove.
+    fn stroke(&self) -> Stroke {
         let plane = self.plane;
         let half_width = self.mean_half_width.max(self.unworn_half_width);
         // Largest rates from the surfaces down to the worn depths.
@@ -45,6 +45,13 @@ impl FollowedSection<'_> {
             plane.cycles,
         );
         stroke.is_groove = false;
+        stroke
+    }
+
+    /// The same after so many cycles, by the change of the friction as well.
+    pub(crate) fn stroke_after(&self, done: u64) -> Stroke {
+        let mut stroke = self.stroke();
+        stroke.limit_change_of_friction(self.plane, done);
         stroke
     }
 

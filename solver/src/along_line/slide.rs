@@ -6,6 +6,8 @@ use crate::cycle::retry::{
     FailedIncrement, Increment, IncrementError, RetryPolicy, halve_and_retry,
 };
 use crate::cycle::{IncrementNumber, MeanHalfWidth, WarmStarts};
+use crate::number::real_cycles;
+use crate::schedule::plan::Cycles;
 use crate::schedule::replay::ReplayPlan;
 use crate::schedule::step::{Position, Step};
 
@@ -27,8 +29,8 @@ pub(crate) trait Sections {
     /// An increment without a solution; the state is then the one before.
     fn advance(&mut self, increment: SectionsIncrement) -> Result<(), Self::Unsolved>;
 
-    /// Takes the normals of the surfaces as worn now.
-    fn update_slopes(&mut self);
+    /// Takes the normals and the friction of the surfaces as worn now, in so many cycles.
+    fn update_surfaces(&mut self, cycles: Cycles);
 
     /// A copy of what increments change.
     fn save(&self) -> Self::Saved;
@@ -66,20 +68,21 @@ pub(crate) trait Sections {
     fn end_cycle(&mut self, starts: Vec<WarmStarts>, half_widths_mm: Vec<Option<f64>>);
 }
 
-/// Takes the steps of a cycle, each of which stands for so many cycles, with replays of single ones.
+/// Takes the steps of a cycle, each of which stands for a jump of cycles, with replays of single ones; without wear where the jump is 0.
 ///
 /// # Errors
 /// [`FailedIncrement`]; the steps before it have been taken.
 pub(crate) fn slide<S: Sections>(
     sections: &mut S,
     steps: &[Step],
-    cycles: f64,
+    cycles: Cycles,
     replays: &ReplayPlan,
 ) -> Result<LineRecord, FailedIncrement<S::Unsolved>> {
     let mut starts = vec![WarmStarts::default(); sections.contacts().count()];
     let mut half_widths = vec![MeanHalfWidth::default(); sections.half_widths().len()];
     let (mut record, mut replayed) = (LineRecord::default(), Vec::new());
-    sections.update_slopes();
+    sections.update_surfaces(cycles);
+    let cycles = real_cycles(cycles.jump);
     for (number, step) in steps.iter().enumerate() {
         for &(_, end) in replays.spans.iter().filter(|span| span.0 == number) {
             replayed.extend(replay(sections, &steps[number..=end], replays));

@@ -25,7 +25,7 @@ pub(super) mod band;
 mod complementarity;
 mod deformation;
 mod error;
-mod friction;
+pub(super) mod friction;
 mod geometry;
 mod increment;
 mod linearised;
@@ -48,6 +48,7 @@ mod work;
 
 pub(crate) use active_window::CANDIDATE_GAP;
 pub use error::ContactError;
+pub(crate) use friction::coefficients_in_contact;
 pub use increment::Solver;
 pub(crate) use linearised::{DoseUnknowns, LinearisedContact, PassPosition, Place};
 pub use outcome::Increment;

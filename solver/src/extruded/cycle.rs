@@ -7,13 +7,16 @@ use crate::ale::Spines;
 use crate::along_line::{PositionContacts, Sections, SectionsIncrement};
 use crate::contact::planes::{Extruded, ExtrudedSolver, PlaneWear, Slide, Solved};
 use crate::contact::{
-    ContactError, ContactState, Pair, Solver, Surfaces, WarmStart, Work, slopes_of_both,
+    ContactError, ContactState, Pair, Solver, Surfaces, WarmStart, Work, coefficients_in_contact,
+    slopes_of_both,
 };
 use crate::cycle::retry::{RETRY, RetryPolicy};
 use crate::cycle::{Neutral, WarmStarts, wear_limit};
 use crate::model::Interface;
+use crate::model::friction::{ContactFriction, CycleFriction};
 use crate::number::count;
 use crate::scene::Scene;
+use crate::schedule::plan::Cycles;
 use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
 
@@ -28,7 +31,10 @@ pub(crate) struct ExtrudedContact {
     pub(super) planes: Planes,
     pub(super) common: CommonPlaneState,
     pub(super) effort: Effort,
+    pub(super) friction: ContactFriction,
     slopes: Vec<Sides<Vec<f64>>>,
+    /// Coefficients of friction of each plane in the present computed cycle.
+    cycle_friction: Vec<CycleFriction>,
     solver: ExtrudedSolver,
     /// Evaluates forces with the present normals, plane by plane.
     of_plane: Solver,
@@ -45,7 +51,9 @@ pub(crate) struct SavedPlanes {
 impl ExtrudedContact {
     /// Unloaded, unworn bodies.
     pub(super) fn new(scene: &ExtrudedScene, plane: Scene, bodies: Bodies) -> Self {
-        let (sections, interface) = (&bodies.operators.sections, bodies.unworn().interface);
+        let unworn = bodies.unworn();
+        let (sections, interface) = (&bodies.operators.sections, unworn.interface);
+        let layered = unworn.surface.plating;
         let planes = bodies.shares.len();
         let contact = ContactState::untouched(sections, interface.slave);
         let state = PlaneState {
@@ -58,6 +66,7 @@ impl ExtrudedContact {
             warm_starts: WarmStarts::default(),
         };
         Self {
+            friction: ContactFriction::new(&plane, &interface.wear, layered),
             interface,
             scene: scene.clone(),
             plane,
@@ -71,6 +80,7 @@ impl ExtrudedContact {
             },
             effort: Effort::default(),
             slopes: Vec::new(),
+            cycle_friction: Vec::new(),
             solver: ExtrudedSolver::default(),
             of_plane: Solver::default(),
             next: vec![contact; planes],
@@ -154,12 +164,13 @@ impl Sections for ExtrudedContact {
         let SectionsIncrement {
             to, cycles, start, ..
         } = increment;
-        let pairs = self.planes.states.iter().zip(&self.slopes);
-        let surfaces: Vec<Surfaces<'_>> = pairs
-            .map(|(state, slope)| Surfaces {
+        let planes = self.planes.states.iter().zip(&self.slopes);
+        let surfaces: Vec<Surfaces<'_>> = planes
+            .zip(&self.cycle_friction)
+            .map(|((state, slope), friction)| Surfaces {
                 depth: state.depth.as_slices(),
                 slope: slope.as_slices(),
-                friction: Sides::default(),
+                friction: friction.nodal(),
             })
             .collect();
         let starts: Option<Vec<WarmStart<'_>>> = start.and_then(|number| {
@@ -188,11 +199,15 @@ impl Sections for ExtrudedContact {
         Ok(())
     }
 
-    fn update_slopes(&mut self) {
+    fn update_surfaces(&mut self, cycles: Cycles) {
         let sections = &self.bodies.operators.sections;
-        let states = self.planes.states.iter();
-        let slopes = states.map(|state| slopes_of_both(sections, &state.depth));
+        let depths = self.planes.states.iter().map(|state| &state.depth);
+        let slopes = depths.clone().map(|depth| slopes_of_both(sections, depth));
         self.slopes = slopes.collect();
+        let friction = depths.map(|depth| self.friction.in_cycles(depth, cycles.range()));
+        self.cycle_friction = friction.collect();
+        let coefficients = self.cycle_friction.iter().map(|plane| plane.coefficient);
+        self.interface.friction = coefficients.fold(0.0, f64::max);
     }
 
     fn save(&self) -> SavedPlanes {
@@ -241,14 +256,17 @@ impl Sections for ExtrudedContact {
             interface: self.interface,
         };
         let (mut force, mut found) = (0.0, Vec::new());
+        let mut coefficients = Vec::new();
         let planes = self.planes.states.iter().zip(&self.planes.contacts);
-        for ((state, contact), share) in planes.zip(&self.bodies.shares) {
+        let planes = planes.zip(&self.cycle_friction);
+        for (((state, contact), friction), share) in planes.zip(&self.bodies.shares) {
             let slope = slopes_of_both(pair.operators, &state.depth);
             let surfaces = Surfaces {
                 depth: state.depth.as_slices(),
                 slope: slope.as_slices(),
-                friction: Sides::default(),
+                friction: friction.nodal(),
             };
+            coefficients.push(coefficients_in_contact(pair, &surfaces, contact));
             force += share * self.of_plane.vertical_force_on(pair, &surfaces, contact);
             found.push(Neutral {
                 load: state.line_load,
@@ -260,6 +278,7 @@ impl Sections for ExtrudedContact {
             position,
             slider_x: self.slider_x(),
             contacts: self.planes.contacts.clone(),
+            friction: coefficients,
             found,
             imbalance: (force - load).abs() / self.interface.load,
         }

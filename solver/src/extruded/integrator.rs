@@ -91,7 +91,7 @@ impl SectionedContact for ExtrudedContact {
     }
 
     fn apply_load(&mut self) -> Result<(), ExtrudedError> {
-        self.update_slopes();
+        self.update_surfaces(Cycles { done: 0, jump: 0 });
         let loaded = self.advance(SectionsIncrement::new(0.0, 0.0));
         loaded.map_err(|source| {
             let halvings = 0;
@@ -175,9 +175,11 @@ impl SectionedContact for ExtrudedContact {
         }
     }
 
-    fn next_jump(&mut self, remaining: u64) -> u64 {
-        let (stroke, accuracy) = (self.followed().stroke(), &self.plane.accuracy);
-        self.common.jump.next(accuracy, stroke, remaining)
+    fn next_jump(&mut self, most: Cycles) -> u64 {
+        let stroke = self.followed().stroke_after(most.done);
+        self.common
+            .jump
+            .next(&self.plane.accuracy, stroke, most.jump)
     }
 
     fn cycle_plan(&self, cycles: Cycles) -> CyclePlan {

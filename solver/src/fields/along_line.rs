@@ -16,10 +16,10 @@ use rayon::iter::{
 
 use super::FieldsError;
 use super::common_mesh::CommonMesh;
-use super::tractions::{SurfaceFields, SurfaceNodes, slip_sign, surface_fields};
+use super::tractions::{FrictionAlong, SurfaceFields, SurfaceNodes, slip_sign, surface_fields};
 use super::{BodyFields, Stress, antiplane, recover};
 use crate::ale;
-use crate::along_line::Along;
+use crate::along_line::{Along, SectionContact};
 use crate::condensation::{Antiplane, Condensed, OperatorError};
 use crate::contact::{self, ContactState};
 use crate::mesh::columns::Cell;
@@ -75,7 +75,7 @@ pub(crate) struct SectionState<'a> {
     pub(crate) condensed: &'a Condensed,
     pub(crate) depth: &'a Sides<Vec<f64>>,
     /// Contacts at the named positions, the same ones in all sections.
-    pub(crate) contacts: Vec<(Position, &'a ContactState)>,
+    pub(crate) contacts: Vec<SectionContact<'a>>,
 }
 
 /// Factored meshes of a section for friction along the line, by the number of their zone.
@@ -95,14 +95,14 @@ pub(crate) fn along_line(
     };
     let mut factored: Vec<Factored> = sections.iter().map(|_| Factored::default()).collect();
     let mut fields = Vec::with_capacity(first.contacts.len());
-    for (number, (position, _)) in first.contacts.iter().enumerate() {
+    for (number, at) in first.contacts.iter().enumerate() {
         let placed: Vec<SectionAtPosition<'_>> = sections
             .iter()
             .map(|section| SectionAtPosition::of(section, number, slides.then_some(shape)))
             .collect();
         let bodies = Sides::from_fn(|side| swept(side, &placed, &mut factored)).transpose()?;
         fields.push(LineFields {
-            position: *position,
+            position: at.position,
             shape,
             at: sections.iter().map(|section| section.at).collect(),
             bodies,
@@ -122,14 +122,22 @@ struct SectionAtPosition<'a> {
 
 impl<'a> SectionAtPosition<'a> {
     fn of(section: &'a SectionState<'a>, number: usize, slides: Option<LineShape>) -> Self {
-        let (position, contact) = section.contacts[number];
+        let SectionContact {
+            position,
+            contact,
+            friction,
+            ..
+        } = section.contacts[number];
         let zone = Sides::from_fn(|side| {
             let operators = section.condensed.operators.of(side);
             operators
                 .zone_number(&contact.loaded(side))
                 .unwrap_or_default()
         });
-        let along = slides.map_or(0.0, |shape| slip_sign(shape, section.at, position));
+        let along = slides.map(|shape| FrictionAlong {
+            direction: slip_sign(shape, section.at, position),
+            coefficients: friction,
+        });
         Self {
             section,
             contact,

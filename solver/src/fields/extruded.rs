@@ -72,7 +72,7 @@ impl ExtrudedSections<'_> {
         let (operators, interface) = (&self.operators.sections, &self.models[0].interface);
         let planes = contacts.iter().zip(&self.depths);
         planes
-            .map(|(contact, depth)| surface_fields(operators, interface, depth, contact, 0.0))
+            .map(|(contact, depth)| surface_fields(operators, interface, depth, contact, None))
             .collect()
     }
 

@@ -40,6 +40,28 @@ impl SurfaceNodes {
     }
 }
 
+/// Friction along the line of a contact.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FrictionAlong<'a> {
+    /// Sign of the slider's slip along the line; 0 without one.
+    pub(super) direction: f64,
+    /// Coefficients at the nodes from the first in contact to the last, -.
+    pub(super) coefficients: &'a [f64],
+}
+
+impl FrictionAlong<'_> {
+    /// Shear along the line at a node of a contact, MPa: what the limit of friction leaves beside the shear across it.
+    fn shear(self, contact: &ContactState, node: usize) -> f64 {
+        let (first, _) = contact.active_range().unwrap_or_default();
+        let friction = node
+            .checked_sub(first)
+            .and_then(|i| self.coefficients.get(i));
+        let limit = friction.map_or(0.0, |friction| friction * contact.pressure[node]);
+        let across = contact.shear[node];
+        self.direction * (limit * limit - across * across).max(0.0).sqrt()
+    }
+}
+
 /// Sign of the slider's slip along the line, to larger angles: it moves to the right, or turns to larger angles, but for its way to the left.
 pub(super) fn slip_sign(shape: LineShape, at: Along, position: Position) -> f64 {
     let to_the_right = match position {
@@ -68,7 +90,7 @@ pub(super) fn surface_fields(
     interface: &Interface,
     depth: &Sides<Vec<f64>>,
     contact: &ContactState,
-    slip_along: f64,
+    along: Option<FrictionAlong<'_>>,
 ) -> Sides<Vec<SurfaceFields>> {
     // Places on the receptacle.
     let x = Sides::from_fn(|side| {
@@ -83,8 +105,7 @@ pub(super) fn surface_fields(
     let slopes = contact::slopes(&operators.receptacle, &depth.receptacle, Side::Receptacle);
     let of_slave = x.of(interface.slave).iter().enumerate().map(|(i, &at)| {
         let (pressure, across) = (contact.pressure[i], contact.shear[i]);
-        let limit = interface.friction * pressure;
-        let along = slip_along * (limit * limit - across * across).max(0.0).sqrt();
+        let along = along.map_or(0.0, |along| along.shear(contact, i));
         let slope = interpolated(&x.receptacle, at, |j| slopes[j]);
         let length = slope.hypot(1.0);
         [pressure, across / length, across * slope / length, along]

@@ -5,6 +5,8 @@
 //! chosen for a wider contact if replays resolve the present one where it is reported: of both plans the one of fewer
 //! increments is taken.
 
+use std::ops::Range;
+
 use super::increments;
 use super::replay::{ReplayPlan, ReplayedCycle};
 use super::stroke::Stroke;
@@ -32,6 +34,14 @@ pub(crate) struct Cycles {
     pub(crate) done: u64,
     /// That the computed cycle represents.
     pub(crate) jump: u64,
+}
+
+impl Cycles {
+    /// From those done before the computed cycle to those done after it.
+    pub(crate) fn range(self) -> Range<f64> {
+        let done = real_cycles(self.done);
+        done..done + real_cycles(self.jump)
+    }
 }
 
 impl Followed {

@@ -12,7 +12,9 @@ use crate::along_line::{PositionContacts, Sections, SectionsIncrement};
 use crate::contact::ContactState;
 use crate::cycle::WarmStarts;
 use crate::cycle::retry::{IncrementError, RETRY, RetryPolicy};
+use crate::model::friction::ContactFriction;
 use crate::scene::Scene;
+use crate::schedule::plan::Cycles;
 use crate::schedule::step::Position;
 use crate::threads::Threads;
 
@@ -25,6 +27,7 @@ pub(crate) struct LineContact {
     pub(super) carrier: Carrier,
     pub(super) stations: Vec<Station>,
     pub(super) common: CommonLineState,
+    pub(super) friction: ContactFriction,
     pub(super) threads: Arc<Threads>,
 }
 
@@ -56,8 +59,11 @@ impl Sections for LineContact {
         Ok(())
     }
 
-    fn update_slopes(&mut self) {
-        self.stations.iter_mut().for_each(Station::update_slopes);
+    fn update_surfaces(&mut self, cycles: Cycles) {
+        let friction = &self.friction;
+        for station in &mut self.stations {
+            station.update_surfaces(friction, cycles);
+        }
     }
 
     fn save(&self) -> SavedLine {
@@ -121,6 +127,7 @@ impl Sections for LineContact {
                 .clone()
                 .map(|station| station.state.contact.clone())
                 .collect(),
+            friction: stations.clone().map(Station::coefficients).collect(),
             found: stations.map(Station::present).collect(),
             imbalance: (force_n - expected_n).abs() / self.carrier.force_n,
         }

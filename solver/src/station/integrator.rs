@@ -17,12 +17,13 @@ use super::side_by_side::for_each;
 use super::state::{CommonLineState, LineState, StationState, StationsState};
 use super::top::{Carrier, Unsolved};
 use crate::along_line::{
-    SectionedContact, SectionsError, SectionsIncrement, SectionsIntegrator, WornSection,
+    SectionedContact, Sections, SectionsError, SectionsIncrement, SectionsIntegrator, WornSection,
 };
 use crate::contact::{ContactError, ContactState};
 use crate::cycle::retry::FailedIncrement;
 use crate::cycle::{Checks, Neutral};
 use crate::effects::EffectsPlan;
+use crate::model::friction::ContactFriction;
 use crate::model::{self, BodyModel, Interface};
 use crate::scene::{Motion, Scene, Top};
 use crate::schedule::plan::{CyclePlan, Cycles};
@@ -61,6 +62,7 @@ impl LineContact {
         let built = model::build(&plane, plan).map_err(SectionsError::from)?;
         scene.check_slip(&plane)?;
         let (spring, slave) = (built.interface.spring, built.interface.slave);
+        let friction = ContactFriction::new(&plane, &built.interface.wear, built.surface.plating);
         let unworn = Arc::new(Section::unworn(built)?);
         let untouched = ContactState::untouched(&unworn.condensed.operators, slave);
         let within = intervals_within(&scene.section.accuracy);
@@ -79,6 +81,7 @@ impl LineContact {
             },
             stations: stations.collect(),
             common: CommonLineState::default(),
+            friction,
             scene: scene.clone(),
             plane,
             unworn,
@@ -158,6 +161,7 @@ impl SectionedContact for LineContact {
     }
 
     fn apply_load(&mut self) -> Result<(), StationError> {
+        self.update_surfaces(Cycles { done: 0, jump: 0 });
         self.stations.iter_mut().for_each(Station::hold);
         let loaded = self.apply_load_once();
         self.stations.iter_mut().for_each(Station::release);
@@ -247,8 +251,8 @@ impl SectionedContact for LineContact {
         }
     }
 
-    fn next_jump(&mut self, remaining: u64) -> u64 {
-        self.jump_of_leading(remaining)
+    fn next_jump(&mut self, most: Cycles) -> u64 {
+        self.jump_of_leading(most)
     }
 
     fn cycle_plan(&self, cycles: Cycles) -> CyclePlan {

@@ -14,7 +14,10 @@ use crate::contact::{
     slopes_of_both,
 };
 use crate::cycle::{Neutral, wear_limit};
+use crate::law::friction::Coefficients;
+use crate::model::friction::{ContactFriction, CycleFriction};
 use crate::model::{Interface, Tangential};
+use crate::schedule::plan::Cycles;
 use crate::sides::{Side, Sides};
 
 /// A solved increment that is not part of the state yet.
@@ -47,6 +50,8 @@ pub(super) struct Station {
     spines: Spines,
     interface: Interface,
     slope: Sides<Vec<f64>>,
+    /// Coefficients of the present computed cycle.
+    friction: CycleFriction,
     solver: Solver,
     next: ContactState,
 }
@@ -55,19 +60,18 @@ impl Station {
     /// A station in a state, on the unworn section.
     pub(super) fn new(place: Place, section: &Arc<Section>, state: StationState) -> Self {
         let model = &section.model;
-        let mut station = Self {
+        Self {
             place,
             section: Arc::clone(section),
             spines: Spines::of(model),
             interface: model.interface,
             attempt: Attempt::default(),
             slope: Sides::default(),
+            friction: CycleFriction::default(),
             solver: Solver::default(),
             next: ContactState::untouched(&section.condensed.operators, model.interface.slave),
             state,
-        };
-        station.update_slopes();
-        station
+        }
     }
 
     fn pair(&self) -> Pair<'_> {
@@ -77,9 +81,12 @@ impl Station {
         }
     }
 
-    /// Takes the normals of the surfaces as worn now.
-    pub(super) fn update_slopes(&mut self) {
-        self.slope = slopes_of_both(&self.section.condensed.operators, &self.state.depth);
+    /// Takes the normals and the friction of the surfaces as worn now, in so many cycles.
+    pub(super) fn update_surfaces(&mut self, friction: &ContactFriction, cycles: Cycles) {
+        let depth = &self.state.depth;
+        self.slope = slopes_of_both(&self.section.condensed.operators, depth);
+        self.friction = friction.in_cycles(depth, cycles.range());
+        self.interface.friction = self.friction.coefficient;
     }
 
     /// Lets friction hold the section together where nothing is imposed that could slip.
@@ -166,7 +173,7 @@ impl Station {
         let surfaces = Surfaces {
             depth: self.state.depth.as_slices(),
             slope: self.slope.as_slices(),
-            friction: Sides::default(),
+            friction: self.friction.nodal(),
         };
         let done =
             self.solver
@@ -254,8 +261,31 @@ impl Station {
     pub(super) fn present(&self) -> Neutral {
         Neutral {
             load: self.attempt.line_load,
+            friction: self.mean_coefficient(),
             ..Neutral::of(&self.state.contact, &self.pair())
         }
+    }
+
+    /// Coefficients of friction at the nodes of the present contact from the first that touches to the last, -.
+    pub(super) fn coefficients(&self) -> Vec<f64> {
+        let surfaces = Surfaces {
+            depth: self.state.depth.as_slices(),
+            slope: self.slope.as_slices(),
+            friction: self.friction.nodal(),
+        };
+        contact::coefficients_in_contact(&self.pair(), &surfaces, &self.state.contact)
+    }
+
+    /// Their mean, weighted by the pressures; that of the interface where nothing touches.
+    fn mean_coefficient(&self) -> f64 {
+        let contact = &self.state.contact;
+        let Some((first, end)) = contact.active_range() else {
+            return self.interface.friction;
+        };
+        let widths = &self.pair().slave().widths[first..end];
+        let pressures = contact.pressure[first..end].iter().zip(widths);
+        let forces = pressures.map(|(pressure, width)| pressure * width);
+        Coefficients::Local(&self.coefficients()).mean(forces)
     }
 
     /// Normal load of the present contact under an even top, which a spring reduces, N/mm.

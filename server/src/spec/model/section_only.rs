@@ -85,7 +85,6 @@ pub(super) fn pointer(error: &SectionsError, spec: &Spec) -> &'static str {
         | SectionsError::Motion => movement(spec),
         SectionsError::AmplitudeRange(_) if spec.mission.is_empty() => "/motion/amplitude_mm",
         SectionsError::AmplitudeRange(_) => "/mission",
-        SectionsError::FrictionLaw => "/interface/friction",
         SectionsError::Law { .. } => "/interface/wear",
         SectionsError::Contact { .. }
         | SectionsError::Station { .. }

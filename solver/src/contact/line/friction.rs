@@ -7,6 +7,7 @@
 //! that of a slider which follows the surface there (`slip_along`).
 
 use super::pair::{Pair, Surfaces};
+use super::state::ContactState;
 use crate::law::friction::{Coefficients, of_both, weighted_mean};
 use crate::model::{Interface, Tangential};
 use crate::sides::Sides;
@@ -93,7 +94,7 @@ pub(super) fn acting<'a>(
 }
 
 /// Writes the coefficients at these nodes of the slave; none where all places have the same.
-pub(super) fn interpolate(
+pub(in crate::contact) fn interpolate(
     pair: &Pair<'_>,
     surfaces: &Surfaces<'_>,
     pairing_x: f64,
@@ -125,4 +126,25 @@ pub(super) fn interpolate(
         *both.of_mut(slave.other()) = far.map(|far| opposite(pair.slave().x[node] - offset, far));
         coefficients.extend(of_both(both));
     }
+}
+
+/// Coefficients at the nodes of a solved contact from the first one that touches to the last, -, whatever the direction of the slip.
+pub(crate) fn coefficients_in_contact(
+    pair: &Pair<'_>,
+    surfaces: &Surfaces<'_>,
+    contact: &ContactState,
+) -> Vec<f64> {
+    let (first, end) = contact.active_range().unwrap_or_default();
+    if surfaces.has_uniform_friction() {
+        return vec![pair.interface.friction; end - first];
+    }
+    let mut coefficients = Vec::new();
+    interpolate(
+        pair,
+        surfaces,
+        contact.pairing_x,
+        first..end,
+        &mut coefficients,
+    );
+    coefficients
 }

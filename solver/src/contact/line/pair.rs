@@ -166,7 +166,7 @@ pub struct Surfaces<'a> {
 
 impl Surfaces<'_> {
     /// Returns `true` if all places have the coefficient of friction of the interface.
-    pub(super) fn has_uniform_friction(&self) -> bool {
+    pub(in crate::contact) fn has_uniform_friction(&self) -> bool {
         self.friction.slider.is_none() && self.friction.receptacle.is_none()
     }
 }

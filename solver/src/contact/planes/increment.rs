@@ -222,7 +222,8 @@ impl ExtrudedSolver {
         };
         self.problem.sag(zones, interface.slave);
         self.response.reset(self.problem.len());
-        let wall = self.problem.mean_slope_ahead(&self.iterate.pressure) * interface.friction;
+        let friction = self.problem.friction;
+        let wall = self.problem.mean_slope_ahead(&self.iterate.pressure) * friction;
         let (problem, it) = (&self.problem, &mut self.iterate);
         let (newton, response) = (&mut self.newton, &mut self.response);
         let (wear, pair) = (&mut self.wear, &bodies.pair());
@@ -230,8 +231,8 @@ impl ExtrudedSolver {
             Convergence::Converged => Ok(()),
             _ if wall > 1.0 => Err(ContactError::Jammed {
                 slider_x_mm: to.slider_x,
-                slope: wall / interface.friction,
-                limit: interface.friction.recip(),
+                slope: wall / friction,
+                limit: friction.recip(),
             }),
             Convergence::Singular { active } => Err(ContactError::NoEquilibrium {
                 slider_x_mm: to.slider_x,
@@ -260,23 +261,24 @@ impl ExtrudedSolver {
         let (coupling, n) = (&problem.coupling, problem.nodes());
         let slave = pair.interface.slave;
         let slipping = Status::slip(problem.direction);
-        let friction = problem.direction * pair.interface.friction;
         let widths = &pair.slave().widths[coupling.first..coupling.end];
         let planes = next.iter_mut().zip(last).zip(worn).enumerate();
         for (k, ((next, last), worn)) in planes {
             next.reset_open(last, to.slider_x, to.slider_x);
             next.height = it.height;
             next.indentation = it.indentation;
-            next.friction = pair.interface.friction;
             let own = k * n..(k + 1) * n;
             let status = |closed: &bool| if *closed { slipping } else { Status::Open };
             let statuses: Vec<Status> = it.is_closed[own.clone()].iter().map(status).collect();
             next.set_statuses(coupling.first, &statuses);
             let pressure = &it.pressure[own.clone()];
             next.pressure[coupling.first..coupling.end].copy_from_slice(pressure);
-            for (shear, p) in next.shear[coupling.first..].iter_mut().zip(pressure) {
-                *shear = friction * p;
+            let friction = problem.coefficients(k);
+            let shears = next.shear[coupling.first..].iter_mut().zip(pressure);
+            for (node, (shear, p)) in shears.enumerate() {
+                *shear = problem.direction * friction.at(node) * p;
             }
+            next.friction = friction.mean(pressure.iter().zip(widths).map(|(p, width)| p * width));
             problem.write_forces(k, pressure, slave, next);
             self.path.clear();
             self.path.extend_from_slice(&it.path[own.clone()]);
@@ -291,8 +293,9 @@ impl ExtrudedSolver {
                 self.wear
                     .of(k)
                     .recession(coupling, pair, &self.path, &mut worn.recession);
-            worn.path = self.path.iter().zip(widths).map(|(e, d)| e * d).sum();
-            worn.energy = friction.abs() * worn.path;
+            let paths = self.path.iter().zip(widths).map(|(e, d)| e * d);
+            worn.path = paths.clone().sum();
+            worn.energy = (problem.direction * friction.mean(paths)).abs() * worn.path;
             let forces = pressure.iter().zip(&problem.force[own]);
             worn.vertical_force = forces.map(|(p, force)| p * force[1]).sum();
         }

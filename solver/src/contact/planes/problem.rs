@@ -2,12 +2,14 @@
 //!
 //! Node i of plane k is number k n + i of the coupled ones, n in each plane.
 
+use super::super::line::friction;
 use super::super::line::local_slopes::LocalSlopes;
 use super::super::line::mortar::Coupling;
 use super::super::line::{ContactState, Pair, Surfaces};
 use super::bodies::{Extruded, Slide};
 use super::wear::PlanesWear;
 use crate::condensation::PrismZone;
+use crate::law::friction::Coefficients;
 use crate::model::Tangential;
 use crate::sides::Side;
 
@@ -47,6 +49,11 @@ pub(super) struct Problem {
     pub(super) modulus: f64,
     /// Change of the gaps per height: 1, and what the far-face load of the spring opens.
     pub(super) per_height: Vec<f64>,
+    /// Coefficient of friction, -; the largest where places differ in it.
+    pub(super) friction: f64,
+    /// Coefficients at the coupled nodes where places differ in them, -.
+    coefficients: Vec<f64>,
+    coefficients_of_plane: Vec<f64>,
     slopes: LocalSlopes,
 }
 
@@ -89,12 +96,13 @@ impl Problem {
         }
         self.gap.clear();
         self.force.clear();
-        let friction = match interface.tangential {
+        let direction = match interface.tangential {
             Tangential::Omitted => 0.0,
-            Tangential::ImposedSlip | Tangential::StickSlip => self.direction * interface.friction,
+            Tangential::ImposedSlip | Tangential::StickSlip => self.direction,
         };
+        self.take_friction(pair, surfaces, to.slider_x);
         let widths = &pair.slave().widths[first..end];
-        for surfaces in surfaces {
+        for (plane, surfaces) in surfaces.iter().enumerate() {
             self.slopes.assemble(pair, &self.coupling, surfaces);
             let slopes = &self.slopes.interface;
             self.slope.extend_from_slice(slopes);
@@ -102,13 +110,31 @@ impl Problem {
             self.fixed_slip
                 .extend(slopes.iter().map(|s| step - s * height));
             // p N - q T over the width of the node, with N = (-s, 1), T = (1, s) and q = mu p in the direction of the slip.
-            let forces = slopes.iter().zip(widths);
-            self.force.extend(forces.map(|(slope, width)| {
-                let tangential = -friction * width;
+            let friction = coefficients(self.friction, &self.coefficients, plane, widths.len());
+            let forces = slopes.iter().zip(widths).enumerate();
+            self.force.extend(forces.map(|(node, (slope, width))| {
+                let tangential = -(direction * friction.at(node)) * width;
                 [tangential - slope * width, width + slope * tangential]
             }));
             self.measure(pair, surfaces);
         }
+    }
+
+    /// Takes the coefficients of friction of all planes.
+    fn take_friction(&mut self, pair: &Pair<'_>, surfaces: &[Surfaces<'_>], slider_x: f64) {
+        self.friction = pair.interface.friction;
+        self.coefficients.clear();
+        let nodes = self.coupling.first..self.coupling.end;
+        for surfaces in surfaces {
+            let of_plane = &mut self.coefficients_of_plane;
+            friction::interpolate(pair, surfaces, slider_x, nodes.clone(), of_plane);
+            self.coefficients.extend_from_slice(of_plane);
+        }
+    }
+
+    /// Coefficients of friction at the coupled nodes of a plane.
+    pub(super) fn coefficients(&self, plane: usize) -> Coefficients<'_> {
+        coefficients(self.friction, &self.coefficients, plane, self.nodes())
     }
 
     /// Appends the gaps of a plane.
@@ -201,5 +227,14 @@ impl Problem {
         } else {
             0.0
         }
+    }
+}
+
+/// Coefficients of friction at the coupled nodes of a plane, so many in each: one of all places, unless they differ.
+fn coefficients(of_all: f64, differing: &[f64], plane: usize, nodes: usize) -> Coefficients<'_> {
+    if differing.is_empty() {
+        Coefficients::Uniform(of_all)
+    } else {
+        Coefficients::Local(&differing[plane * nodes..(plane + 1) * nodes])
     }
 }

@@ -50,8 +50,10 @@ impl ExtrudedContact {
             after: &after,
         };
         let wear = &self.interface.wear;
-        let worn = EquivalentWear::new(wear, widths.as_slices(), depth);
+        let widths = widths.as_slices();
+        let worn = EquivalentWear::new(wear, widths, depth);
+        let friction = (self.friction).change_at_nodes(wear, widths, depth, worn.depths());
         let control = &mut self.common.jump;
-        control.update(worn.weights(), 0.0, worn.depths(), jump);
+        control.update(worn.weights(), friction, worn.depths(), jump);
     }
 }

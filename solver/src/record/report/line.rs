@@ -64,7 +64,7 @@ pub(crate) fn line_report(end: &LineEnd<'_>) -> CycleReport {
         peak_pressure_mpa: largest(|station| station.peak_pressure_mpa),
         contact_half_width_mm: largest(|station| station.half_width_mm),
         dissipated_energy_mj_per_mm: cycle.dissipated_energy_mj / length,
-        friction_coefficient: scene.friction.unworn(),
+        friction_coefficient: cycle.friction_coefficient,
     }
 }
 

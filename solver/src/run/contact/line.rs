@@ -45,13 +45,12 @@ impl ReportedSections for LineContact {
         let sections: Vec<SectionState<'_>> = numbers
             .map(|(number, report)| {
                 let (model, condensed, depth) = integrator.section(number);
-                let contacts = integrator.contacts(number);
                 SectionState {
                     at: report.at,
                     model,
                     condensed,
                     depth,
-                    contacts: contacts.map(|(at, _, contact)| (at, contact)).collect(),
+                    contacts: integrator.contacts(number).collect(),
                 }
             })
             .collect();

@@ -312,9 +312,9 @@ fn placed<S: ReportedSections>(
     let nodes = profile.x_mm.of(slave);
     let contacts = sections.contacts(number);
     contacts
-        .map(|(position, slider_x_mm, contact)| TractionField {
-            slider_x_mm,
-            ..tractions(position, slave, nodes, contact)
+        .map(|at| TractionField {
+            slider_x_mm: at.slider_x_mm,
+            ..tractions(at.position, slave, nodes, at.contact)
         })
         .collect()
 }

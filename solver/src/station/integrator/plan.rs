@@ -62,14 +62,14 @@ impl LineContact {
         load(&self.stations[station]) >= LEADING * largest
     }
 
-    /// The jump that the leading stations allow.
-    pub(super) fn jump_of_leading(&mut self, remaining: u64) -> u64 {
-        let mut jump = remaining;
+    /// The jump that the leading stations allow, at most that of `most`.
+    pub(super) fn jump_of_leading(&mut self, most: Cycles) -> u64 {
+        let mut jump = most.jump;
         for j in 0..self.stations.len() {
-            let stroke = self.followed(j).stroke();
+            let stroke = self.followed(j).stroke_after(most.done);
             let leads = self.leads(j);
             let control = &mut self.stations[j].state.jump;
-            let next = control.next(&self.plane.accuracy, stroke, remaining);
+            let next = control.next(&self.plane.accuracy, stroke, most.jump);
             if leads {
                 jump = jump.min(next);
             }
@@ -80,11 +80,11 @@ impl LineContact {
     /// Measures what the next jump depends on, after one from these states.
     pub(super) fn measure_jump(&mut self, before: &[StationState], jump: u64) {
         for (station, before) in self.stations.iter_mut().zip(before) {
-            station.measure_jump(&before.depth, jump);
+            station.measure_jump(&self.friction, &before.depth, jump);
         }
     }
 
-    /// A shorter jump where the estimated error of a station whose rate depends on its depth far exceeds what it may be.
+    /// A shorter jump where the estimated error of a station far exceeds what it may be.
     pub(super) fn shorter_jump(&self, jump: u64) -> Option<u64> {
         let stations = self.stations.iter().enumerate();
         let shorter = stations.filter_map(|(j, station)| {

@@ -7,6 +7,7 @@ use crate::ale;
 use crate::along_line::{SectionsError, WornSection};
 use crate::change::Change;
 use crate::model::ZONE_WIDENING;
+use crate::model::friction::ContactFriction;
 use crate::scene::Accuracy;
 use crate::schedule::equivalent_wear::EquivalentWear;
 use crate::sides::Sides;
@@ -33,17 +34,24 @@ impl Station {
     }
 
     /// Measures what the next jump depends on, after one from these depths that all stations share.
-    pub(in crate::station) fn measure_jump(&mut self, before: &Sides<Vec<f64>>, jump: u64) {
+    pub(in crate::station) fn measure_jump(
+        &mut self,
+        friction: &ContactFriction,
+        before: &Sides<Vec<f64>>,
+        jump: u64,
+    ) {
         let operators = &self.section.condensed.operators;
         let widths = operators.as_ref().map(|body| &body.widths[..]);
         let depth = Change {
             before,
             after: &self.state.depth,
         };
-        let worn = EquivalentWear::new(&self.interface.wear, widths, depth);
+        let wear = &self.interface.wear;
+        let worn = EquivalentWear::new(wear, widths, depth);
+        let friction = friction.change_at_nodes(wear, widths, depth, worn.depths());
         let control = &mut self.state.jump;
         control.share(jump);
-        control.update(worn.weights(), 0.0, worn.depths(), jump);
+        control.update(worn.weights(), friction, worn.depths(), jump);
     }
 
     /// Returns `true` if the section has drifted from the geometry of its operators; these are then those of the present depths.
