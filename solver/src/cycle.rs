@@ -35,8 +35,8 @@ use crate::ale::Spines;
 use crate::closed_form::expected_wear;
 use crate::condensation::Operators;
 use crate::contact::{self, ContactError, ContactState, Displacement, Pair, Solver, Surfaces};
+use crate::law::friction::contact::{ContactFriction, CycleFriction};
 use crate::law::surface::SurfaceWear;
-use crate::model::friction::{ContactFriction, CycleFriction};
 use crate::model::{Interface, Model, Tangential};
 use crate::number::{cycles_at_least, real, real_cycles};
 use crate::scene::{Motion, Scene, TimedMotion};
@@ -116,7 +116,7 @@ impl<'a> Integrator<'a> {
             slope: Sides::default(),
             wear,
             heating,
-            friction: ContactFriction::new(scene, &model.interface.wear, model.surface.plating),
+            friction: scene.contact_friction(&model.interface.wear, model.surface.plating),
             cycle_friction: CycleFriction::default(),
             spines: Spines::of(model),
             expected_cycles: expected_wear::expected_cycles(scene, model.sizes.hertz_half_width),

@@ -1,6 +1,5 @@
 //! The model: two meshed bodies with their surfaces, materials and supports. Knows both meshes and laws.
 
-pub(crate) mod friction;
 mod interface;
 pub mod layout;
 pub mod profile;

@@ -41,6 +41,7 @@ pub use turning_points::{MOST_TURNS, TurningPoints};
 
 use std::borrow::Cow;
 
+use crate::law::friction::contact::ContactFriction;
 use crate::law::pace::Pace;
 use crate::law::surface::SurfaceWear;
 use crate::sides::{Side, Sides};
@@ -201,6 +202,16 @@ impl Scene {
             Side::Slider => &self.slider.plating,
             Side::Receptacle => &self.receptacle.plating,
         }
+    }
+
+    /// Friction of the contact whose surfaces wear in this way, through the layers of their platings or by the outermost one alone.
+    pub(crate) fn contact_friction(
+        &self,
+        wear: &Sides<Option<SurfaceWear>>,
+        layered: bool,
+    ) -> ContactFriction {
+        let platings = Sides::from_fn(|side| self.plating(side));
+        ContactFriction::new(&self.friction, wear, layered.then_some(platings))
     }
 
     /// Wear of both surfaces over a cycle with the effects that are switched off left out: a law of speed as its mean rate.

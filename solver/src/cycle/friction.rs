@@ -5,7 +5,7 @@
 //! part of that of the jump (`ContactFriction::change`).
 
 use super::{CycleState, Integrator};
-use crate::model::friction::ContactFriction;
+use crate::law::friction::contact::ContactFriction;
 use crate::number::real_cycles;
 
 impl Integrator<'_> {

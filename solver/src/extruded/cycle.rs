@@ -12,8 +12,8 @@ use crate::contact::{
 };
 use crate::cycle::retry::{RETRY, RetryPolicy};
 use crate::cycle::{Neutral, WarmStarts, wear_limit};
+use crate::law::friction::contact::{ContactFriction, CycleFriction};
 use crate::model::Interface;
-use crate::model::friction::{ContactFriction, CycleFriction};
 use crate::number::count;
 use crate::scene::Scene;
 use crate::schedule::plan::Cycles;
@@ -66,7 +66,7 @@ impl ExtrudedContact {
             warm_starts: WarmStarts::default(),
         };
         Self {
-            friction: ContactFriction::new(&plane, &interface.wear, layered),
+            friction: plane.contact_friction(&interface.wear, layered),
             interface,
             scene: scene.clone(),
             plane,

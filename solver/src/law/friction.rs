@@ -5,6 +5,7 @@
 //! has a coefficient of its own at each place, and the contact the mean of both: the rule is ours, symmetric in both bodies, and equal
 //! coefficients remain. A surface without one has no part in it. Limiting case: equal points or layers are the constant law.
 
+pub(crate) mod contact;
 pub mod table;
 
 use crate::sides::{Side, Sides};

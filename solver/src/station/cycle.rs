@@ -12,7 +12,7 @@ use crate::along_line::{PositionContacts, Sections, SectionsIncrement};
 use crate::contact::ContactState;
 use crate::cycle::WarmStarts;
 use crate::cycle::retry::{IncrementError, RETRY, RetryPolicy};
-use crate::model::friction::ContactFriction;
+use crate::law::friction::contact::ContactFriction;
 use crate::scene::Scene;
 use crate::schedule::plan::Cycles;
 use crate::schedule::step::Position;

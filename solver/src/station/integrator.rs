@@ -23,7 +23,6 @@ use crate::contact::{ContactError, ContactState};
 use crate::cycle::retry::FailedIncrement;
 use crate::cycle::{Checks, Neutral};
 use crate::effects::EffectsPlan;
-use crate::model::friction::ContactFriction;
 use crate::model::{self, BodyModel, Interface};
 use crate::scene::{Motion, Scene, Top};
 use crate::schedule::plan::{CyclePlan, Cycles};
@@ -62,7 +61,7 @@ impl LineContact {
         let built = model::build(&plane, plan).map_err(SectionsError::from)?;
         scene.check_slip(&plane)?;
         let (spring, slave) = (built.interface.spring, built.interface.slave);
-        let friction = ContactFriction::new(&plane, &built.interface.wear, built.surface.plating);
+        let friction = plane.contact_friction(&built.interface.wear, built.surface.plating);
         let unworn = Arc::new(Section::unworn(built)?);
         let untouched = ContactState::untouched(&unworn.condensed.operators, slave);
         let within = intervals_within(&scene.section.accuracy);

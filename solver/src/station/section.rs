@@ -15,7 +15,7 @@ use crate::contact::{
 };
 use crate::cycle::{Neutral, wear_limit};
 use crate::law::friction::Coefficients;
-use crate::model::friction::{ContactFriction, CycleFriction};
+use crate::law::friction::contact::{ContactFriction, CycleFriction};
 use crate::model::{Interface, Tangential};
 use crate::schedule::plan::Cycles;
 use crate::sides::{Side, Sides};

@@ -1,18 +1,17 @@
-//! Coefficients of friction of a model: one at a time everywhere, or those of both surfaces by how far they have worn.
+//! Coefficients of friction of a contact: one at a time everywhere, or those of both surfaces by how far they have worn.
 //!
 //! The dose of a place is the one that its worn depth stands for (`law::plating`), and the layer that lies open there is that of the
 //! depth, so that neither is a state of its own.
 
 use std::ops::Range;
 
+use super::{Coefficients, Friction, Table, of_both};
 use crate::change::Change;
-use crate::law::friction::{Coefficients, Friction, Table, of_both};
-use crate::law::plating::bottoms;
+use crate::law::plating::{Layer, bottoms};
 use crate::law::surface::SurfaceWear;
-use crate::scene::Scene;
 use crate::sides::{Side, Sides};
 
-/// Coefficients of friction of a model.
+/// Coefficients of friction of a contact.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum ContactFriction {
     /// The same at every place, after so many cycles.
@@ -50,26 +49,31 @@ pub(crate) enum SurfaceFriction {
 }
 
 impl ContactFriction {
-    /// Friction of a scene whose surfaces wear in this way, through the layers of their platings or by the outermost one alone.
-    pub(crate) fn new(scene: &Scene, wear: &Sides<Option<SurfaceWear>>, layered: bool) -> Self {
-        if !scene.friction.changes() {
-            return Self::constant(scene.friction.unworn());
+    /// Friction by a law of surfaces that wear in this way, through the layers of their platings or, without these, by the outermost alone.
+    pub(crate) fn new(
+        law: &Friction,
+        wear: &Sides<Option<SurfaceWear>>,
+        platings: Option<Sides<&[Layer]>>,
+    ) -> Self {
+        if !law.changes() {
+            return Self::constant(law.unworn());
         }
-        let surfaces = match &scene.friction {
+        let surfaces = match law {
             Friction::Frictionless | Friction::Coulomb { .. } => {
-                return Self::constant(scene.friction.unworn());
+                return Self::constant(law.unworn());
             }
             Friction::ByCycle(table) => return Self::Uniform(table.clone()),
             Friction::ByDose(table) => {
                 Sides::from_fn(|side| SurfaceFriction::by_dose(table, (*wear.of(side))?))
             }
             Friction::ByLayer(layers) => Sides::from_fn(|side| {
-                SurfaceFriction::by_layer(scene, side, layers.of(side), layered)
+                let plating = platings.as_ref().map(|platings| *platings.of(side));
+                SurfaceFriction::by_layer(layers.of(side), plating)
             }),
         };
         if surfaces.slider.is_none() && surfaces.receptacle.is_none() {
             // Nothing wears, and so nothing changes.
-            return Self::constant(scene.friction.unworn());
+            return Self::constant(law.unworn());
         }
         Self::BySurface(Box::new(surfaces))
     }
@@ -179,16 +183,16 @@ impl SurfaceFriction {
         })
     }
 
-    fn by_layer(scene: &Scene, side: Side, coefficients: &[f64], layered: bool) -> Option<Self> {
+    fn by_layer(coefficients: &[f64], plating: Option<&[Layer]>) -> Option<Self> {
         let outer = *coefficients.first()?;
-        if !layered {
+        let Some(plating) = plating else {
             return Some(Self::ByLayer {
                 bottoms: Vec::new(),
                 coefficients: vec![outer],
             });
-        }
+        };
         Some(Self::ByLayer {
-            bottoms: bottoms(scene.plating(side)).collect(),
+            bottoms: bottoms(plating).collect(),
             coefficients: coefficients.to_vec(),
         })
     }
@@ -212,61 +216,58 @@ impl SurfaceFriction {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::tests::fuzz_button;
-    use crate::scene::{Layer, SurfaceEffects};
+    use crate::law::wear::WearLaw;
 
-    const ALL: SurfaceEffects = SurfaceEffects {
-        plating: true,
-        softening: true,
-    };
+    /// Rate of the base, 1/MPa.
+    const BASE: f64 = 2.5e-5;
 
-    /// The fuzz button with 1 um of a layer at 1e-6 1/MPa on its receptacle.
-    fn plated(friction: Friction) -> Scene {
-        let mut scene = fuzz_button();
-        scene.receptacle.plating = vec![Layer {
+    /// Friction of a receptacle with 1 um of a layer at 1e-6 1/MPa, and of a slider that does not wear.
+    fn friction(law: &Friction, layered: bool) -> ContactFriction {
+        let layers = [Layer {
             thickness_mm: 1e-3,
             rate_per_mpa: 1e-6,
         }];
-        scene.friction = friction;
-        scene
-    }
-
-    fn friction(scene: &Scene, layered: bool) -> ContactFriction {
-        let wear = Sides {
-            slider: scene.slider.surface_wear(ALL, None),
-            receptacle: scene.receptacle.surface_wear(ALL, None),
+        let base = WearLaw::Archard {
+            k_over_h_per_mpa: BASE,
         };
-        ContactFriction::new(scene, &wear, layered)
+        let wear = Sides {
+            slider: None,
+            receptacle: SurfaceWear::new(&layers, Some(base)),
+        };
+        let platings = Sides {
+            slider: &[][..],
+            receptacle: &layers[..],
+        };
+        ContactFriction::new(law, &wear, layered.then_some(platings))
     }
 
     #[test]
     fn the_layer_that_lies_open_determines_the_coefficient() {
         let coefficients = vec![0.2, 0.6];
-        let scene = plated(Friction::ByLayer(Sides {
+        let law = Friction::ByLayer(Sides {
             slider: Vec::new(),
             receptacle: coefficients,
-        }));
+        });
         let depth = Sides {
             slider: vec![0.0; 2],
             receptacle: vec![0.0, 0.99e-3, 1e-3, 1.0],
         };
-        let nodal = friction(&scene, true).nodal(&depth);
+        let nodal = friction(&law, true).nodal(&depth);
         assert_eq!(nodal.receptacle, Some(vec![0.2, 0.2, 0.6, 0.6]));
         assert_eq!(nodal.slider, None);
-        let outer = friction(&scene, false).nodal(&depth);
+        let outer = friction(&law, false).nodal(&depth);
         assert_eq!(outer.receptacle, Some(vec![0.2; 4]));
     }
 
     #[test]
     fn the_dose_of_a_depth_is_that_of_its_layers() {
-        let base = 0.011 / 427.0;
         let table = Table::new(&[(0.0, 0.2), (1_000.0, 0.4), (1_100.0, 0.5)]);
-        let scene = plated(Friction::ByDose(table));
+        let law = Friction::ByDose(table);
         let depth = Sides {
             slider: vec![0.0],
-            receptacle: vec![0.0, 0.5e-3, 1e-3, 1e-3 + 50.0 * base],
+            receptacle: vec![0.0, 0.5e-3, 1e-3, 1e-3 + 50.0 * BASE],
         };
-        let friction = friction(&scene, true);
+        let friction = friction(&law, true);
         let nodal = friction.nodal(&depth).receptacle.unwrap_or_default();
         for (found, expected) in nodal.iter().zip([0.2, 0.3, 0.4, 0.45]) {
             assert!((found - expected).abs() < 1e-12, "{nodal:?}");
@@ -278,9 +279,7 @@ mod tests {
     #[test]
     fn doses_change_nothing_where_nothing_wears() {
         let table = Table::new(&[(0.0, 0.2), (1_000.0, 0.4)]);
-        let mut scene = fuzz_button();
-        scene.friction = Friction::ByDose(table);
-        let unworn = ContactFriction::new(&scene, &Sides::default(), true);
+        let unworn = ContactFriction::new(&Friction::ByDose(table), &Sides::default(), None);
         assert_eq!(unworn, ContactFriction::Uniform(Table::new(&[(0.0, 0.2)])));
         let found = unworn.in_cycles(&Sides::default(), 5.0..6.0);
         assert!((found.coefficient - 0.2).abs() < 1e-15);
