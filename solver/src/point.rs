@@ -13,8 +13,10 @@
 
 mod check;
 mod contact_at_position;
+mod energy;
 mod error;
 mod field;
+mod friction;
 mod integrator;
 mod jump;
 mod lattice;
@@ -36,7 +38,7 @@ mod window;
 pub(crate) use contact_at_position::ContactAtPosition;
 pub use error::PointError;
 pub(crate) use integrator::PointIntegrator;
-pub(crate) use jump::{JumpControl, laws_of_implicit_jumps};
+pub(crate) use jump::{JumpBounds, JumpControl, laws_of_implicit_jumps};
 pub(crate) use lattice::is_steady;
 pub(crate) use legs::legs;
 pub use motion_history::PointHistory;

@@ -6,6 +6,8 @@
 //! * A coefficient that rises lets a contact in partial slip stick on a larger part and wear less.
 
 mod along_lines;
+mod missions;
+mod points;
 mod symmetry;
 
 use solver::record::{CycleReport, Outcome, Snapshot};

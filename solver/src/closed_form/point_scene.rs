@@ -46,7 +46,7 @@ pub struct PointScene {
     pub force_n: f64,
     /// Stiffness of the spring that applies it, which relaxes as the slider sinks, N/mm; 0 for a dead load.
     pub spring_n_per_mm: f64,
-    /// Coefficient of friction mu, -.
+    /// Coefficient of friction mu, -; the largest of a run in which it changes.
     pub friction: f64,
     /// How it slips.
     pub slip: SlipRegime,
@@ -159,7 +159,7 @@ impl PointAccuracy {
             step_over_half_length: step / refinement.increments,
             cycle_jump: accuracy.cycle_jump,
             cycles_refinement: refinement.cycles,
-            implicit_jumps: accuracy.tuning.implicit_jumps,
+            implicit_jumps: accuracy.tuning.implicit_jumps && !scene.friction.changes(),
             ..chosen
         }
     }
@@ -201,7 +201,7 @@ impl PointScene {
             force_n: point.force_n,
             // A spring per mm of depth acts on the load per mm of depth.
             spring_n_per_mm: scene.spring_n_per_mm2 * point.force_n / scene.load_n_per_mm,
-            friction: scene.friction.unworn(),
+            friction: scene.largest_friction(),
             slip,
             // Passes begin at the turning point on the side of -A.
             amplitude_mm: -scene.motion.amplitude_mm(),

@@ -11,12 +11,13 @@ use crate::effects;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::number::{count_at_least, real, real_cycles};
-use crate::point::{JumpControl, is_steady, laws_of_implicit_jumps, legs};
+use crate::point::{JumpBounds, JumpControl, is_steady, laws_of_implicit_jumps, legs};
 use crate::scene::{Effect, Scene};
 use crate::schedule::jump::Formula;
 use crate::schedule::jump::implicit::two_steps;
 use crate::schedule::mission::MissionPosition;
-use crate::schedule::stops::StopQuantities;
+use crate::schedule::stops::{StopQuantities, next_point_of_friction};
+use crate::schedule::stroke::even_friction;
 use crate::sides::{Side, Sides};
 
 /// Estimated work of the run of a point contact.
@@ -131,7 +132,9 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
             position = position.next(scene, at(done), |_, _| 0.0);
             is_first = true;
         }
-        let until = position.until.min(cycles);
+        let until = next_point_of_friction(scene, done)
+            .min(position.until)
+            .min(cycles);
         let Block {
             contact,
             jumps,
@@ -144,7 +147,12 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
             0.0
         };
         let remaining = until - done;
-        let mut jump = jumps.next(&contact.accuracy, done, remaining, step);
+        let (by_cycle, tolerance) = (scene.friction.by_cycle(), contact.accuracy.tolerance);
+        let bounds = JumpBounds {
+            step,
+            even_friction: even_friction(by_cycle, tolerance, done),
+        };
+        let mut jump = jumps.next(&contact.accuracy, done, remaining, bounds);
         let implicit = laws_of_implicit_jumps(contact)
             .filter(|_| scene.mission.is_none() && is_moving && done > 0)
             .map(|_| ImplicitStep::next(jumps, contact, done, remaining))

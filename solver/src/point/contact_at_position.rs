@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::friction::WindowFriction;
 use super::section::{half_lengths, section, section_integral};
 use super::state::State;
 use crate::closed_form::{PointScene, SlipRegime};
@@ -21,6 +22,8 @@ pub(crate) struct ContactAtPosition {
     pub(crate) pressure_mpa: Vec<f64>,
     /// Shear on the receptacle along the middle section, MPa.
     pub(crate) shear_mpa: Vec<f64>,
+    /// Mean coefficient of friction, weighted by the pressure, -.
+    pub(super) friction: f64,
     /// Line load, N/mm, and the tangential force of the whole contact, N.
     pub(super) tangential: (f64, f64),
 }
@@ -38,13 +41,20 @@ impl ContactAtPosition {
         section(self.cells.along_z, &self.pressure_mpa).collect()
     }
 
-    /// The contact in a state of a scene, slipping into a direction.
-    pub(super) fn of(scene: &PointScene, state: &State, direction: f64) -> Self {
+    /// The contact in a state of a scene under the friction of its window, slipping into a direction.
+    pub(super) fn of(
+        scene: &PointScene,
+        friction: &WindowFriction,
+        state: &State,
+        direction: f64,
+    ) -> Self {
         let (window, pressure) = (state.lattice.cells(), &state.pressure);
         let shear = match scene.slip {
             SlipRegime::Gross => {
-                let shear = pressure.values.iter();
-                shear.map(|p| direction * scene.friction * p).collect()
+                let coefficients = friction.coefficients();
+                let pressures = pressure.values.iter().enumerate();
+                let shear = pressures.map(|(cell, p)| direction * coefficients.at(cell) * p);
+                shear.collect()
             }
             SlipRegime::Partial => state.shear.0.values.clone(),
         };
@@ -58,6 +68,7 @@ impl ContactAtPosition {
             cells: window,
             pressure_mpa: pressure.values.clone(),
             shear_mpa: section(window.along_z, &shear).collect(),
+            friction: friction.means(&pressure.values).whole,
             tangential: (section_integral(&window, &shear), window.integral(&shear)),
         }
     }

@@ -1,24 +1,26 @@
 //! Computed cycles of a point contact: each stands for a jump, whose wear both of its passes do at once.
 
+mod computed_cycle;
 mod implicit;
 
-use super::contact_at_position::ContactAtPosition;
 use super::error::PointError;
-use super::jump::{JumpControl, jump_error, rejected, share_in_wear};
+use super::friction::change_in_cycle;
+use super::jump::{JumpBounds, JumpControl, jump_error, share_in_wear};
 use super::lattice::Lattice;
 use super::legs::legs;
 use super::motions::PointMotions;
 use super::point_state::PointState;
 use super::record::PointCycle;
 use super::sliding::Sliding;
-use super::state::{State, start};
+use super::state::State;
 use super::surface::{Surface, WearSums};
-use super::window;
 use crate::closed_form::{CyclePath, PointScene, SlipRegime};
+use crate::law::friction::contact::ContactFriction;
 use crate::law::surface::SurfaceWear;
 use crate::number::real_cycles;
-use crate::schedule::attempts::{Attempts, Remedy, longest_accepted_jump};
+use crate::schedule::plan::Cycles;
 use crate::schedule::step::Position;
+use crate::schedule::stroke::even_friction;
 use crate::sides::{Side, Sides};
 use implicit::CyclePressures;
 
@@ -51,7 +53,11 @@ impl PointIntegrator {
         let unworn = motions.lattice();
         let scene = *motions.first();
         Ok(Self {
-            sliding: Sliding::new(&scene, &State::unworn(&scene, unworn)),
+            sliding: Sliding::new(
+                &scene,
+                motions.friction.clone(),
+                &State::unworn(&scene, unworn),
+            ),
             slip: motions.slip,
             scene,
             unworn,
@@ -67,6 +73,7 @@ impl PointIntegrator {
     pub(crate) fn load(&mut self) -> Result<PointState, PointError> {
         let (scene, sliding) = (&self.scene, &mut self.sliding);
         let mut state = State::unworn(scene, self.unworn);
+        sliding.begin(&mut state, Cycles { done: 0, jump: 0 });
         sliding.load(&mut state)?;
         if scene.slip == SlipRegime::Partial {
             // To the turning point where the first pass begins, without wear.
@@ -74,7 +81,7 @@ impl PointIntegrator {
         }
         // Without wear there is no skew.
         let at_neutral = sliding.unskewed(&state, 1.0, scene.force_n)?;
-        let neutral = ContactAtPosition::of(scene, &at_neutral, 0.0);
+        let neutral = sliding.contact(&at_neutral, 0.0);
         let mut state = PointState {
             control: JumpControl::default(),
             turning: [neutral.clone(), neutral.clone()],
@@ -96,45 +103,13 @@ impl PointIntegrator {
     pub(crate) fn resume(motions: &PointMotions, state: &PointState) -> Self {
         let scene = *motions.first();
         Self {
-            sliding: Sliding::new(&scene, &state.sliding),
+            sliding: Sliding::new(&scene, motions.friction.clone(), &state.sliding),
             slip: motions.slip,
             scene,
             unworn: motions.lattice(),
             is_mission: motions.is_mission,
             pressures: None,
         }
-    }
-
-    /// Computes the next cycle up to a number of them, with shorter jumps until its error is accepted.
-    ///
-    /// # Errors
-    /// A contact without a solution.
-    pub(crate) fn compute_cycle(
-        &mut self,
-        state: &mut PointState,
-        until: u64,
-    ) -> Result<PointCycle, PointError> {
-        // A rest wears nothing, also by the round-off of merged cells.
-        if self.scene.path_mm() != 0.0 {
-            let cells = self.scene.accuracy.cells_per_half_length;
-            window::coarsen(&mut state.sliding, cells);
-            state.sliding.position = start(&self.scene, &state.sliding.lattice);
-        }
-        let remaining = until.max(state.done + 1) - state.done;
-        if let Some(cycle) = self.implicit_jump(state, remaining)? {
-            return Ok(cycle);
-        }
-        let work = state.sliding.work;
-        state.sliding.passing.clear();
-        let mut attempts = PointAttempts {
-            integrator: self,
-            state,
-            remaining,
-        };
-        let first = attempts.next_jump();
-        let (jump, error) = longest_accepted_jump(&mut attempts, first)?;
-        state.control.update(jump, error);
-        Ok(self.end_cycle(state, jump, error, work))
     }
 
     /// Ends the computed cycle or the implicit jump of a number of cycles and an error, after earlier work.
@@ -155,11 +130,11 @@ impl PointIntegrator {
     }
 
     /// The passes of a computed cycle of a jump; returns the estimated error of its wear.
-    fn pass_all(&mut self, state: &mut PointState, jump: f64) -> Result<f64, PointError> {
+    fn pass_all(&mut self, state: &mut PointState, jump: u64) -> Result<f64, PointError> {
         let (scene, sliding) = (&self.scene, &mut self.sliding);
-        for side in Side::BOTH {
-            state.sliding.surfaces.of_mut(side).begin_cycle();
-        }
+        let done = state.done;
+        sliding.begin(&mut state.sliding, Cycles { done, jump });
+        let jump = real_cycles(jump);
         let legs = legs(scene);
         match scene.slip {
             SlipRegime::Partial => {
@@ -167,7 +142,7 @@ impl PointIntegrator {
                 // Under the same pressure one increment a pass would do: slip grows with the displacement without turning.
                 for leg in &legs {
                     sliding.slip_partly(&mut state.sliding, leg.to - leg.from, jump)?;
-                    let at = ContactAtPosition::of(scene, &state.sliding, leg.direction());
+                    let at = sliding.contact(&state.sliding, leg.direction());
                     state.increments.push(at.tangential);
                     state.take_contact(leg.at, at);
                 }
@@ -176,7 +151,7 @@ impl PointIntegrator {
                 sliding.wear_in_place(&mut state.sliding, jump)?;
                 // The last pass goes from -A to A or back as the amplitude says; so does the one through the neutral position.
                 let last = -scene.amplitude_mm.signum();
-                let contact = |direction| ContactAtPosition::of(scene, &state.sliding, direction);
+                let contact = |direction| sliding.contact(&state.sliding, direction);
                 let (neutral, turning) = (contact(last), [-last, last].map(contact));
                 (state.neutral, state.turning) = (neutral, turning);
             }
@@ -185,7 +160,7 @@ impl PointIntegrator {
                     let to = state.sliding.lattice.position(leg.to);
                     sliding.pass(&mut state.sliding, to, leg.length(), jump)?;
                     if leg.at.is_some() {
-                        let at = ContactAtPosition::of(scene, &state.sliding, leg.direction());
+                        let at = sliding.contact(&state.sliding, leg.direction());
                         state.take_contact(leg.at, at);
                     }
                     if leg.at == Some(Position::Leftmost) {
@@ -204,10 +179,11 @@ impl PointIntegrator {
             sums.total += of_side.total;
             sums.earlier += of_side.earlier;
         }
-        Ok(match self.scene.slip {
+        let of_wear = match self.scene.slip {
             SlipRegime::Gross => jump_error(sums),
-            SlipRegime::Partial => jump_error(sums) * share_in_wear(sums, state.done),
-        })
+            SlipRegime::Partial => jump_error(sums) * share_in_wear(sums, done),
+        };
+        Ok(of_wear + change_in_cycle(self.sliding.friction(), &state.sliding))
     }
 
     /// Replaces the contact at the neutral position by one without the skew of a jump, where one body wears in two equal passes.
@@ -217,13 +193,22 @@ impl PointIntegrator {
             let force_n = state.neutral.force_n;
             let unskewed = self.sliding.unskewed(&state.sliding, jump, force_n)?;
             let last = -self.scene.amplitude_mm.signum();
-            state.neutral = ContactAtPosition::of(&self.scene, &unskewed, last);
+            state.neutral = self.sliding.contact(&unskewed, last);
         }
         Ok(())
     }
 
+    /// Bounds of the next jump besides its error.
+    pub(super) fn jump_bounds(&self, state: &PointState) -> JumpBounds {
+        let by_cycle = self.sliding.friction().by_cycle();
+        JumpBounds {
+            step: self.step(state),
+            even_friction: even_friction(by_cycle, self.scene.accuracy.tolerance, state.done),
+        }
+    }
+
     /// Leading-edge step over the indentation that a cycle leaves.
-    pub(super) fn step(&self, state: &PointState) -> f64 {
+    fn step(&self, state: &PointState) -> f64 {
         let lattice = &state.sliding.lattice;
         if lattice.is_in_place(self.scene.amplitude_mm) {
             return 0.0;
@@ -239,6 +224,11 @@ impl PointIntegrator {
     fn wears_once(&self) -> bool {
         let wear = self.scene.bodies.as_ref().map(|body| body.wear.is_some());
         wear.slider != wear.receptacle
+    }
+
+    /// Friction of the contact.
+    pub(crate) fn friction(&self) -> &ContactFriction {
+        self.sliding.friction()
     }
 
     /// The scene that the contact is computed from.
@@ -270,67 +260,12 @@ impl PointIntegrator {
             peak_pressure_mpa: neutral.peak_pressure_mpa,
             half_length_along_mm: neutral.half_lengths_mm.0,
             half_length_across_mm: neutral.half_lengths_mm.1,
-            dissipated_energy_mj: self.scene.friction * sliding.sliding_work,
-            dissipated_energy_mj_per_mm: self.scene.friction * sliding.section_work,
+            dissipated_energy_mj: sliding.energy.whole.sum(),
+            dissipated_energy_mj_per_mm: sliding.energy.section.sum(),
+            friction_coefficient: neutral.friction,
             jump_error,
             increments: sliding.work.0 - work.0,
             iterations: sliding.work.1 - work.1,
         }
-    }
-}
-
-/// Attempts to compute the next cycle of a state.
-struct PointAttempts<'a> {
-    integrator: &'a mut PointIntegrator,
-    state: &'a mut PointState,
-    /// Cycles that remain.
-    remaining: u64,
-}
-
-impl PointAttempts<'_> {
-    fn next_jump(&self) -> u64 {
-        let (state, accuracy) = (&self.state, &self.integrator.scene.accuracy);
-        let step = self.integrator.step(state);
-        state
-            .control
-            .next(accuracy, state.done, self.remaining, step)
-    }
-}
-
-impl Attempts for PointAttempts<'_> {
-    type Saved = State;
-    /// The estimated error.
-    type Record = f64;
-    type Error = PointError;
-
-    fn attempt(&mut self, jump: u64) -> Result<f64, PointError> {
-        let done = self.state.done;
-        self.integrator
-            .pass_all(self.state, real_cycles(jump))
-            .map_err(|error| error.at(done))
-    }
-
-    fn rejected(&mut self, _: &State, error: &f64, jump: u64) -> Option<u64> {
-        let accuracy = &self.integrator.scene.accuracy;
-        rejected(accuracy, self.state.done, jump, *error)
-    }
-
-    fn save(&self) -> State {
-        self.state.sliding.clone()
-    }
-
-    fn go_back(&mut self, before: &State) {
-        self.state.sliding.go_back(before);
-    }
-
-    /// The window has been widened as far as it can be.
-    fn remedy(&mut self, _: &PointError) -> Result<Remedy, PointError> {
-        Ok(Remedy::Nothing)
-    }
-
-    /// In equal shares of what remains.
-    fn limit(&mut self, most: u64) -> u64 {
-        self.state.control.limit(most);
-        self.next_jump()
     }
 }

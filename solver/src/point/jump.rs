@@ -65,14 +65,23 @@ pub(crate) struct JumpControl {
     formula: Formula,
 }
 
+/// Bounds of the next jump besides its error.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct JumpBounds {
+    /// Leading-edge step over the indentation that a cycle leaves.
+    pub(crate) step: f64,
+    /// Cycles within which a coefficient of friction by cycle changes by as much as it may in a jump.
+    pub(crate) even_friction: f64,
+}
+
 impl JumpControl {
-    /// The next jump, for a step over the indentation of a jump of one cycle.
+    /// The next jump.
     pub(crate) fn next(
         self,
         accuracy: &PointAccuracy,
         done: u64,
         remaining: u64,
-        step: f64,
+        bounds: JumpBounds,
     ) -> u64 {
         if let Some(jump) = accuracy.cycle_jump {
             return jump.clamp(1, remaining.max(1));
@@ -83,9 +92,12 @@ impl JumpControl {
         let refinement = accuracy.cycles_refinement;
         let target = self.last * allowed_error(accuracy) / self.error;
         let target = target.clamp(LEAST_GROWTH * self.last, MOST_GROWTH * self.last);
-        let by_step = largest_step(accuracy.tolerance) / (refinement * step.max(f64::MIN_POSITIVE));
+        let by_step =
+            largest_step(accuracy.tolerance) / (refinement * bounds.step.max(f64::MIN_POSITIVE));
         let by_growth = real_cycles(done) / refinement;
-        let target = target.min(by_step).min(by_growth).max(1.0);
+        let by_friction = bounds.even_friction / refinement;
+        let target = target.min(by_step).min(by_growth).min(by_friction);
+        let target = target.max(1.0);
         let target = if self.most > 0 {
             target.min(real_cycles(self.most))
         } else {
@@ -223,15 +235,35 @@ fn largest_step(tolerance: f64) -> f64 {
 mod tests {
     use super::*;
 
+    /// Of friction that does not change.
+    fn even(step: f64) -> JumpBounds {
+        JumpBounds {
+            step,
+            even_friction: f64::INFINITY,
+        }
+    }
+
+    #[test]
+    fn the_change_of_friction_bounds_a_jump() {
+        let accuracy = PointAccuracy::from_tolerance(0.02);
+        let mut control = JumpControl::default();
+        control.update(100, 1e-6);
+        let bounds = JumpBounds {
+            even_friction: 30.0,
+            ..even(1e-9)
+        };
+        assert_eq!(control.next(&accuracy, 10_000, 900, bounds), 30);
+    }
+
     #[test]
     fn jumps_grow_while_the_wear_changes_little() {
         let accuracy = PointAccuracy::from_tolerance(0.02);
         let mut control = JumpControl::default();
-        assert_eq!(control.next(&accuracy, 0, 1_000, 1e-9), 1);
+        assert_eq!(control.next(&accuracy, 0, 1_000, even(1e-9)), 1);
         control.update(10, 1e-4);
-        assert_eq!(control.next(&accuracy, 500, 1_000, 1e-9), 20);
+        assert_eq!(control.next(&accuracy, 500, 1_000, even(1e-9)), 20);
         control.update(20, 0.03);
-        assert_eq!(control.next(&accuracy, 520, 980, 1e-9), 27);
+        assert_eq!(control.next(&accuracy, 520, 980, even(1e-9)), 27);
     }
 
     #[test]
@@ -258,6 +290,6 @@ mod tests {
         let accuracy = PointAccuracy::from_tolerance(0.02);
         let mut control = JumpControl::default();
         control.update(100, 1e-6);
-        assert_eq!(control.next(&accuracy, 10_000, 900, 1e-2), 40);
+        assert_eq!(control.next(&accuracy, 10_000, 900, even(1e-2)), 40);
     }
 }

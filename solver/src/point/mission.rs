@@ -12,6 +12,7 @@ use crate::closed_form::SlipRegime;
 use crate::interpolation;
 use crate::scene::{Motion, Scene};
 use crate::schedule::mission_state::BlockWear;
+use crate::schedule::plan::Cycles;
 use crate::sides::Sides;
 
 impl PointIntegrator {
@@ -38,6 +39,7 @@ impl PointIntegrator {
         let (scene, sliding) = (&self.scene, &mut self.sliding);
         let (moved, done) = (&mut state.sliding, state.done);
         moved.passing.clear();
+        sliding.begin(moved, Cycles { done, jump: 0 });
         let start_mm = -scene.amplitude_mm;
         let changed = match (from.slip, scene.slip) {
             (_, SlipRegime::Gross) => {
@@ -66,7 +68,7 @@ impl PointIntegrator {
         BlockWear::whole(
             state.done,
             state.sliding_distance_mm,
-            self.scene.friction * state.sliding.section_work,
+            state.sliding.energy.section.sum(),
             Sides::from_fn(|side| {
                 let depths = surfaces.of(side).section_depths_mm();
                 lattice.size_mm.0 * depths.sum::<f64>()

@@ -3,11 +3,13 @@
 use serde::{Deserialize, Serialize};
 
 use super::contact_at_position::ContactAtPosition;
+use super::friction::WindowFriction;
 use super::jump::JumpControl;
 use super::legs::{Leg, legs};
 use super::record::{DepthMap, PointCycle};
 use super::state::State;
 use crate::closed_form::PointScene;
+use crate::law::friction::contact::ContactFriction;
 use crate::number::real_cycles;
 use crate::schedule::step::Position;
 use crate::sides::{Side, Sides};
@@ -198,17 +200,18 @@ impl PointState {
     }
 
     /// Worst residuals so far.
-    pub(crate) fn residuals(&self, scene: &PointScene) -> Residuals {
+    pub(crate) fn residuals(&self, scene: &PointScene, friction: &ContactFriction) -> Residuals {
         let (force, contact) = self.sliding.worst_residuals;
         let forces = self.friction_loop(scene).into_iter();
         let most = forces.fold(0.0, |most: f64, point| most.max(point.force_n.abs()));
         // A spring presses most before its contact wears in the cycle.
-        let [left, right] = self.turning.each_ref().map(|at| at.force_n);
-        let limit = scene.friction * self.neutral.force_n.max(left).max(right);
+        let largest = |at: &ContactAtPosition| at.friction * at.force_n;
+        let [left, right] = self.turning.each_ref().map(largest);
+        let limit = largest(&self.neutral).max(left).max(right);
         Residuals {
             force,
             dose: self.dose_residual(),
-            friction_cone: self.friction_cone(scene.friction),
+            friction_cone: self.friction_cone(friction),
             contact,
             friction_use: if limit > 0.0 { most / limit } else { 0.0 },
         }
@@ -230,13 +233,13 @@ impl PointState {
     }
 
     /// Largest shear beyond mu p where a part may stick, over the peak pressure. In gross slip the shear is mu p.
-    fn friction_cone(&self, friction: f64) -> f64 {
-        let (along, across) = &self.sliding.shear;
-        let pressure = &self.sliding.pressure.values;
+    fn friction_cone(&self, friction: &ContactFriction) -> f64 {
+        let state = &self.sliding;
+        let (along, across) = &state.shear;
+        let pressure = &state.pressure.values;
+        let bounds = WindowFriction::of(friction, state, state.position).bounds(pressure);
         let shear = along.values.iter().zip(&across.values);
-        let beyond = shear
-            .zip(pressure)
-            .map(|((x, z), p)| x.hypot(*z) - friction * p);
+        let beyond = shear.zip(bounds).map(|((x, z), bound)| x.hypot(*z) - bound);
         let peak = pressure
             .iter()
             .fold(f64::MIN_POSITIVE, |most, p| p.max(most));

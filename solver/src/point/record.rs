@@ -35,6 +35,8 @@ pub struct PointCycle {
     pub dissipated_energy_mj: f64,
     /// The same per mm of depth of the middle section, mJ/mm.
     pub dissipated_energy_mj_per_mm: f64,
+    /// Mean coefficient of friction over the contact at the neutral position, weighted by its pressure, -.
+    pub friction_coefficient: f64,
     /// Estimated relative error of the wear of the jump.
     pub jump_error: f64,
     /// Contact solves of the computed cycle.

@@ -7,29 +7,33 @@
 //!
 //! Shapes are parabolas, as Hertz': a circle of depth h is deeper by the part h/(2 R).
 
+mod solve;
+
 use std::cmp::Ordering;
 use std::ops::Range;
 
+use super::contact_at_position::ContactAtPosition;
+use super::energy::WholeAndSection;
 use super::error::PointError;
+use super::friction::WindowFriction;
 use super::section::{half_lengths, section_integral};
 use super::spring;
 use super::state::State;
 use super::stick::StickSlip;
 use super::window::widen;
 use crate::closed_form::PointScene;
-use crate::contact::area::{AreaError, NormalContact, NormalProblem};
+use crate::contact::area::{AreaError, NormalContact};
+use crate::law::friction::contact::ContactFriction;
 use crate::number::{nearest, real};
+use crate::schedule::plan::Cycles;
 use crate::sides::Side;
-
-/// Most solves of an increment through layers, and change of the pressure over its sum at which they end.
-const MOST_REPETITIONS: usize = 12;
-const PRESSURE_TOLERANCE: f64 = 1e-4;
 
 /// Solves the increments of a point contact that slides.
 pub(super) struct Sliding {
     scene: PointScene,
     contact: NormalContact,
-    friction: StickSlip,
+    friction: ContactFriction,
+    stick: StickSlip,
     /// Gap before the increment on the window, and, as linear functions of the pressure, the gap with the wear of the increment.
     gap: Vec<f64>,
     unloaded_gap: Vec<f64>,
@@ -50,11 +54,12 @@ struct Increment {
 
 impl Sliding {
     /// For a contact in a state.
-    pub(super) fn new(scene: &PointScene, state: &State) -> Self {
+    pub(super) fn new(scene: &PointScene, friction: ContactFriction, state: &State) -> Self {
         Self {
             scene: *scene,
             contact: NormalContact::new(state.lattice.cells(), scene.modulus()),
-            friction: StickSlip::default(),
+            friction,
+            stick: StickSlip::default(),
             gap: Vec::new(),
             unloaded_gap: Vec::new(),
             wear: Vec::new(),
@@ -67,6 +72,33 @@ impl Sliding {
         self.scene = *scene;
     }
 
+    /// Friction of the contact.
+    pub(super) fn friction(&self) -> &ContactFriction {
+        &self.friction
+    }
+
+    /// Begins a computed cycle of these cycles, or a movement without wear.
+    pub(super) fn begin(&self, state: &mut State, cycles: Cycles) {
+        for side in Side::BOTH {
+            state.surfaces.of_mut(side).begin_cycle();
+        }
+        self.update_coefficient(state, cycles);
+    }
+
+    /// Takes the mean coefficient of these cycles, where it is the same at every place.
+    pub(super) fn update_coefficient(&self, state: &mut State, cycles: Cycles) {
+        if let Some(table) = self.friction.by_cycle() {
+            let Range { start, end } = cycles.range();
+            state.coefficient = table.mean(start, end);
+        }
+    }
+
+    /// The contact in a state, slipping into a direction.
+    pub(super) fn contact(&self, state: &State, direction: f64) -> ContactAtPosition {
+        let friction = WindowFriction::of(&self.friction, state, state.position);
+        ContactAtPosition::of(&self.scene, &friction, state, direction)
+    }
+
     /// Slides to the neutral position without wear, where all of the contact has slipped in a direction, 1 or -1.
     pub(super) fn slip_to_neutral(
         &mut self,
@@ -76,8 +108,10 @@ impl Sliding {
         let neutral = state.lattice.amplitude;
         self.slide(state, neutral, 0.0, 0.0)?;
         state.forget_shear();
-        let bounds = state.pressure.values.iter();
-        let shear = bounds.map(|pressure| direction * self.scene.friction * pressure);
+        let friction = WindowFriction::of(&self.friction, state, state.position);
+        let coefficients = friction.coefficients();
+        let pressures = state.pressure.values.iter().enumerate();
+        let shear = pressures.map(|(cell, pressure)| direction * coefficients.at(cell) * pressure);
         state.shear.0.values = shear.collect();
         Ok(())
     }
@@ -154,7 +188,10 @@ impl Sliding {
         cycles: f64,
     ) -> Result<(), PointError> {
         self.fit(state);
-        self.friction.advance(&self.scene, state, displacement_mm)?;
+        let friction = WindowFriction::of(&self.friction, state, state.position);
+        let bounds = friction.bounds(&state.pressure.values);
+        let (scene, stick) = (&self.scene, &mut self.stick);
+        stick.advance(scene, &bounds, state, displacement_mm)?;
         let increment = Increment {
             to: state.position,
             worn_path_mm: 0.0,
@@ -171,8 +208,13 @@ impl Sliding {
             state.surfaces.of_mut(side).add(&self.dose, first_row);
         }
         let cells = state.lattice.cells();
-        state.sliding_work += cells.integral(&self.dose);
-        state.section_work += section_integral(&cells, &self.dose);
+        let work = WholeAndSection {
+            whole: cells.integral(&self.dose),
+            section: section_integral(&cells, &self.dose),
+        };
+        // The window may have been widened.
+        let friction = WindowFriction::of(&self.friction, state, state.position);
+        state.add_work(work, friction.means(&self.dose));
         state.force_n = spring::next_force_n(&self.scene, state);
         Ok(())
     }
@@ -199,8 +241,12 @@ impl Sliding {
         }
         state.position = to;
         let line_load = section_integral(&state.lattice.cells(), &state.pressure.values);
-        state.sliding_work += state.force_n * increment.worn_path_mm;
-        state.section_work += line_load * increment.worn_path_mm;
+        let work = WholeAndSection {
+            whole: state.force_n * increment.worn_path_mm,
+            section: line_load * increment.worn_path_mm,
+        };
+        let friction = WindowFriction::of(&self.friction, state, to);
+        state.add_work(work, friction.means(&state.pressure.values));
         state.force_n = spring::next_force_n(&self.scene, state);
         Ok(())
     }
@@ -220,102 +266,9 @@ impl Sliding {
         }
     }
 
-    /// Builds the operators again where the grid has changed.
-    fn fit(&mut self, state: &State) {
-        let cells = state.lattice.cells();
-        if *self.contact.cells() != cells {
-            self.friction = StickSlip::default();
-            self.contact = NormalContact::new(cells, self.scene.modulus());
-        }
-    }
-
-    /// Solves for the pressure at the end of an increment.
-    fn solve(&mut self, state: &mut State, increment: Increment) -> Result<(), AreaError> {
-        let cells = state.lattice.cells();
-        self.fit(state);
-        self.update_gap(state, increment.to);
-        let is_linear = Side::BOTH.map(|side| state.surfaces.of(side).is_linear());
-        let repetitions = if is_linear == [true, true] || increment.cycles <= 0.0 {
-            1
-        } else {
-            MOST_REPETITIONS
-        };
-        for _ in 0..repetitions {
-            self.update_wear(state, increment);
-            let problem = NormalProblem {
-                gap_mm: &self.unloaded_gap,
-                wear_mm_per_mpa: &self.wear,
-                force_n: state.force_n,
-            };
-            let pressure = &mut state.pressure.values;
-            let before = (repetitions > 1).then(|| pressure.clone());
-            let found = self.contact.solve(&problem, pressure)?;
-            state.approach_mm = found.approach_mm;
-            state.work.0 += 1;
-            state.work.1 += found.iterations;
-            let force = (cells.integral(pressure) / state.force_n - 1.0).abs();
-            let worst = &mut state.worst_residuals;
-            *worst = (worst.0.max(force), worst.1.max(found.residual));
-            if before.is_some_and(|before| change(&before, pressure) < PRESSURE_TOLERANCE) {
-                break;
-            }
-        }
-        Ok(())
-    }
-
     /// Solves for the contact at a position of the slider without wear.
     pub(super) fn settle(&mut self, state: &mut State, position: usize) -> Result<(), PointError> {
         self.slide(state, position, 0.0, 0.0)
-    }
-
-    /// Gap of the undeformed surfaces at a position of the slider.
-    fn update_gap(&mut self, state: &State, position: usize) {
-        self.gap = state.lattice.unworn_gap_mm(&self.scene, position);
-        let State {
-            lattice, surfaces, ..
-        } = state;
-        let rows = 2 * lattice.window().0;
-        for side in Side::BOTH {
-            let surface = surfaces.of(side);
-            let doses = surface.dose.rows(lattice.first_row(side, position), rows);
-            for (gap, dose) in self.gap.iter_mut().zip(doses) {
-                *gap += surface.depth_mm(*dose);
-            }
-        }
-    }
-
-    /// Linearises the wear of both surfaces in an increment about the present pressure.
-    fn update_wear(&mut self, state: &State, increment: Increment) {
-        let State {
-            lattice,
-            surfaces,
-            pressure,
-            slip,
-            ..
-        } = state;
-        self.wear.clear();
-        self.wear.resize(pressure.values.len(), 0.0);
-        self.unloaded_gap.clone_from(&self.gap);
-        let rows = 2 * lattice.window().0;
-        for side in Side::BOTH {
-            let surface = surfaces.of(side);
-            let doses = surface
-                .dose
-                .rows(lattice.first_row(side, increment.to), rows);
-            let places = doses.iter().zip(&pressure.values).zip(&slip.values);
-            let linear = self.unloaded_gap.iter_mut().zip(&mut self.wear);
-            for ((gap, wear), ((dose, pressure), slip)) in linear.zip(places) {
-                let path = if increment.is_partial {
-                    increment.cycles * slip
-                } else {
-                    increment.worn_path_mm
-                };
-                let added = path * pressure;
-                let (worn, rate) = surface.growth(*dose, added);
-                *gap += worn - rate * added;
-                *wear += path * rate;
-            }
-        }
     }
 }
 
@@ -328,10 +281,4 @@ fn rows_passed(state: &State, side: Side, increment: Increment) -> Range<usize> 
         Ordering::Equal => last..last + 1,
         Ordering::Greater => last..first,
     }
-}
-
-/// Sum of the changes of a pressure over its sum.
-fn change(before: &[f64], after: &[f64]) -> f64 {
-    let changes = before.iter().zip(after).map(|(a, b)| (a - b).abs());
-    changes.sum::<f64>() / after.iter().sum::<f64>()
 }

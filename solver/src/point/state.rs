@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::energy::{DissipatedEnergy, WholeAndSection};
 use super::field::{Axis, Field};
 use super::lattice::Lattice;
 use super::surface::Surface;
@@ -21,6 +22,10 @@ pub(super) struct State {
     pub(super) sliding_work: f64,
     /// The same per mm of depth of the middle section, N.
     pub(super) section_work: f64,
+    /// Coefficient of friction in the present computed cycle, -, where it is the same at every place.
+    pub(super) coefficient: f64,
+    /// Energy dissipated since the run began, mJ, and per mm of depth of the middle section, mJ/mm.
+    pub(super) energy: WholeAndSection<DissipatedEnergy>,
     /// Normal force, N, which a spring reduces as the slider sinks.
     pub(super) force_n: f64,
     /// Approach of the bodies by deformation and wear, and that of the unworn contact, mm.
@@ -51,6 +56,8 @@ impl State {
             position: start(scene, &lattice),
             sliding_work: 0.0,
             section_work: 0.0,
+            coefficient: 0.0,
+            energy: WholeAndSection::default(),
             force_n: scene.force_n,
             approach_mm: 0.0,
             unworn_approach_mm: None,
@@ -60,6 +67,14 @@ impl State {
             slip: window(),
             passing: Vec::new(),
         }
+    }
+
+    /// Adds sliding work under mean coefficients of friction.
+    pub(super) fn add_work(&mut self, work: WholeAndSection<f64>, friction: WholeAndSection<f64>) {
+        self.sliding_work += work.whole;
+        self.section_work += work.section;
+        self.energy.whole.add(friction.whole, work.whole);
+        self.energy.section.add(friction.section, work.section);
     }
 
     /// Goes back to an earlier state; the work since then counts.

@@ -17,10 +17,11 @@ pub(super) struct StickSlip {
 }
 
 impl StickSlip {
-    /// Advances shear and slip by a displacement of the slider in mm.
+    /// Advances shear and slip by a displacement of the slider in mm, under bounds of the shear at each cell in MPa.
     pub(super) fn advance(
         &mut self,
         scene: &PointScene,
+        bounds: &[f64],
         state: &mut State,
         displacement_mm: f64,
     ) -> Result<(), PointError> {
@@ -30,13 +31,11 @@ impl StickSlip {
             let compliance = ShearCompliance::new([elastic.slider, elastic.receptacle]);
             TangentialContact::new(cells, compliance)
         });
-        let bounds = state.pressure.values.iter().map(|p| scene.friction * p);
-        let bounds: Vec<f64> = bounds.collect();
         let mut shear = Shear {
             along: std::mem::take(&mut state.shear.0.values),
             across: std::mem::take(&mut state.shear.1.values),
         };
-        let found = contact.advance((displacement_mm, 0.0), &bounds, &mut shear);
+        let found = contact.advance((displacement_mm, 0.0), bounds, &mut shear);
         (state.shear.0.values, state.shear.1.values) = (shear.along, shear.across);
         let slip = found
             .map_err(|error| PointError::Friction { cycle: 0, error })?
@@ -44,7 +43,7 @@ impl StickSlip {
         let within = WITHIN * bounds.iter().fold(0.0, |most: f64, bound| most.max(*bound));
         let shears = state.shear.0.values.iter().zip(&state.shear.1.values);
         let slips = slip.along.iter().zip(&slip.across);
-        let places = slips.zip(shears).zip(&bounds);
+        let places = slips.zip(shears).zip(bounds);
         for (path, (((along, across), (x, z)), bound)) in state.slip.values.iter_mut().zip(places) {
             let sticks = x.hypot(*z) < bound - within;
             *path = if sticks { 0.0 } else { along.hypot(*across) };

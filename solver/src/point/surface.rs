@@ -208,6 +208,17 @@ impl Surface {
         self.rate
     }
 
+    /// Dose of each cell before the present computed cycle, MPa mm.
+    pub(super) fn dose_before(&self) -> &Field {
+        &self.before
+    }
+
+    /// Depth of each cell then, mm.
+    pub(super) fn depths_before_mm(&self) -> Vec<f64> {
+        let doses = self.before.values.iter();
+        doses.map(|dose| self.depth_mm(*dose)).collect()
+    }
+
     /// Begins a computed cycle.
     pub(super) fn begin_cycle(&mut self) {
         self.before.values.copy_from_slice(&self.dose.values);

@@ -116,7 +116,7 @@ pub(crate) fn resistance_passed(
 }
 
 /// The next cycle at which the coefficient of friction begins to change at another rate.
-fn next_point_of_friction(scene: &Scene, cycle: u64) -> u64 {
+pub(crate) fn next_point_of_friction(scene: &Scene, cycle: u64) -> u64 {
     let table = scene.friction.by_cycle();
     let next = table.and_then(|table| table.next_point(real_cycles(cycle)));
     next.map_or(u64::MAX, cycles_at_least)

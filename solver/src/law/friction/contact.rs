@@ -91,6 +91,14 @@ impl ContactFriction {
         Self::Uniform(Table::new(&[(0.0, coefficient)]))
     }
 
+    /// Table by cycle; `None` where places differ in the coefficient.
+    pub(crate) fn by_cycle(&self) -> Option<&Table> {
+        match self {
+            Self::Uniform(table) => Some(table),
+            Self::BySurface(_) => None,
+        }
+    }
+
     /// Coefficients from one number of cycles to another on surfaces of these worn depths, mm.
     pub(crate) fn in_cycles(&self, depth: &Sides<Vec<f64>>, cycles: Range<f64>) -> CycleFriction {
         match self {

@@ -33,6 +33,7 @@ use super::super::state::State;
 use super::PointIntegrator;
 use crate::law::dose_laws::DoseLaws;
 use crate::schedule::attempts::{Attempts, Remedy, longest_accepted_jump};
+use crate::schedule::plan::Cycles;
 use jump::Jumped;
 pub(super) use pressures::CyclePressures;
 
@@ -52,13 +53,18 @@ impl PointIntegrator {
         };
         let (control, before) = (state.control, state.sliding.clone());
         let accuracy = &self.scene.accuracy;
-        let computed = control.next(accuracy, state.done, remaining, self.step(state));
+        let computed = control.next(accuracy, state.done, remaining, self.jump_bounds(state));
         let jump = state.control.next_implicit(accuracy, state.done, remaining);
         if jump < computed {
             state.control = control;
             return Ok(None);
         }
         let work = state.sliding.work;
+        let cycles = Cycles {
+            done: state.done,
+            jump,
+        };
+        self.sliding.update_coefficient(&mut state.sliding, cycles);
         let mut attempts = ImplicitAttempts {
             integrator: self,
             state,

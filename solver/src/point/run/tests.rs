@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::*;
 use crate::closed_form::{CyclePath, PointAccuracy, PointBody, SlipRegime};
 use crate::law::elastic::Elastic;
+use crate::law::friction::contact::ContactFriction;
 use crate::law::plating::Layer;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::WearLaw;
@@ -67,7 +68,7 @@ fn one_pass_of_a_sphere_leaves_the_track_of_its_line_loads() {
     scene.accuracy.cells_per_half_length = 20.0;
     let lattice = PointMotions::single(&scene).lattice();
     let mut state = State::unworn(&scene, lattice);
-    let mut sliding = Sliding::new(&scene, &state);
+    let mut sliding = Sliding::new(&scene, ContactFriction::constant(scene.friction), &state);
     sliding.load(&mut state).expect("it can be loaded");
     let n = state.lattice.amplitude;
     for to in [n, 2 * n] {

@@ -64,6 +64,6 @@ pub(crate) fn point_report(end: &PointEnd<'_>) -> CycleReport {
         peak_pressure_mpa: cycle.peak_pressure_mpa,
         contact_half_width_mm: cycle.half_length_along_mm,
         dissipated_energy_mj_per_mm: cycle.dissipated_energy_mj_per_mm,
-        friction_coefficient: scene.friction.unworn(),
+        friction_coefficient: cycle.friction_coefficient,
     }
 }

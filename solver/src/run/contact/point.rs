@@ -33,7 +33,7 @@ impl Bodies for PointIntegrator {
 
     fn unworn(scene: &Scene, plan: &EffectsPlan, _: &mut dyn Observer) -> Result<Self, SolveError> {
         let contact = contact_of(scene, plan)?;
-        Ok(Self::unloaded(&PointMotions::of(&contact, scene))?)
+        Ok(Self::unloaded(&motions_of(&contact, scene, plan))?)
     }
 
     fn resumed(
@@ -44,7 +44,7 @@ impl Bodies for PointIntegrator {
     ) -> Result<Self, SolveError> {
         let contact = contact_of(scene, plan)?;
         state.resume(&contact);
-        Ok(Self::resume(&PointMotions::of(&contact, scene), state))
+        Ok(Self::resume(&motions_of(&contact, scene, plan), state))
     }
 
     fn contact<'a>(&'a mut self, block: &'a Scene) -> &'a mut Self {
@@ -190,7 +190,7 @@ impl Contact for &mut PointIntegrator {
 
     /// The area is that of the doses, which every law has: layers have no rate of their own.
     fn checks(&self, state: &PointState, _: &CycleReport) -> Checks {
-        let residuals = state.residuals(self.scene());
+        let residuals = state.residuals(self.scene(), self.friction());
         Checks {
             force_balance: residuals.force,
             force_balance_present_normals: residuals.force,
@@ -227,6 +227,11 @@ fn contact_of(scene: &Scene, plan: &EffectsPlan) -> Result<PointScene, PointErro
         contact.spring_n_per_mm = 0.0;
     }
     Ok(contact)
+}
+
+/// Motions of the contact, with the friction of what the plan simulates.
+fn motions_of(contact: &PointScene, scene: &Scene, plan: &EffectsPlan) -> PointMotions {
+    PointMotions::of(contact, scene, plan.surface_effects().plating)
 }
 
 /// The snapshot of the present state.

@@ -1,6 +1,5 @@
 //! Contacts on the shapes at the end of a jump: those that are reported.
 
-use crate::point::contact_at_position::ContactAtPosition;
 use crate::point::error::PointError;
 use crate::point::integrator::PointIntegrator;
 use crate::point::point_state::PointState;
@@ -16,7 +15,7 @@ impl PointIntegrator {
         let last = -self.scene.amplitude_mm.signum();
         let positions = state.sliding.passing.len();
         let neutral = self.settled(&state.sliding, 0, amplitude)?;
-        state.neutral = ContactAtPosition::of(&self.scene, &neutral, last);
+        state.neutral = self.sliding.contact(&neutral, last);
         state.sliding.work = neutral.work;
         state.sliding.worst_residuals = neutral.worst_residuals;
         let right = self.settled(&state.sliding, positions - 1, 2 * amplitude)?;
@@ -25,7 +24,7 @@ impl PointIntegrator {
             ..right.clone()
         };
         left.pressure.values.reverse();
-        let contact = |state, direction| ContactAtPosition::of(&self.scene, state, direction);
+        let contact = |state, direction| self.sliding.contact(state, direction);
         state.turning = [contact(&left, -1.0), contact(&right, 1.0)];
         state.sliding.work = right.work;
         state.sliding.worst_residuals = right.worst_residuals;

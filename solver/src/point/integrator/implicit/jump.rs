@@ -7,6 +7,7 @@ use super::surface::JumpSurface;
 use crate::contact::area::AreaError;
 use crate::law::dose_laws::DoseLaws;
 use crate::number::real_cycles;
+use crate::point::energy::WholeAndSection;
 use crate::point::error::PointError;
 use crate::point::field::Field;
 use crate::point::integrator::PointIntegrator;
@@ -130,8 +131,16 @@ impl PointIntegrator {
             section_integral(&cells, &added)
         });
         let sliding = &mut state.sliding;
-        sliding.section_work += 0.5 * (section_work.slider + section_work.receptacle);
-        sliding.sliding_work += cycles * self.scene.path_mm() * force_n;
+        let work = WholeAndSection {
+            whole: cycles * self.scene.path_mm() * force_n,
+            section: 0.5 * (section_work.slider + section_work.receptacle),
+        };
+        // Of friction that does not change.
+        let friction = WholeAndSection {
+            whole: sliding.coefficient,
+            section: sliding.coefficient,
+        };
+        sliding.add_work(work, friction);
         sliding.work.0 += 2 * positions;
         sliding.work.1 += iterations * positions;
         for (side, dose) in [

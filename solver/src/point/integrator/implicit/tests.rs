@@ -145,7 +145,7 @@ fn the_doses_of_jumps_add_up_to_the_sliding_work() {
         cycle.expect("it slides");
     }
     assert!(!state.sliding.passing.is_empty());
-    let residuals = state.residuals(&scene);
+    let residuals = state.residuals(&scene, integrator.friction());
     assert!(residuals.dose < 1e-12, "{residuals:?}");
     assert!(residuals.contact < 1e-7 && residuals.friction_use < 1.0 + 1e-12);
     let left: Vec<f64> = state.turning[0].pressure_mpa.clone();
