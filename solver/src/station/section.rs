@@ -276,7 +276,7 @@ impl Station {
         contact::coefficients_in_contact(&self.pair(), &surfaces, &self.state.contact)
     }
 
-    /// Their mean, weighted by the pressures; that of the interface where nothing touches.
+    /// Mean coefficient of friction of the present contact, weighted by the pressures; that of the interface where nothing touches.
     fn mean_coefficient(&self) -> f64 {
         let contact = &self.state.contact;
         let Some((first, end)) = contact.active_range() else {

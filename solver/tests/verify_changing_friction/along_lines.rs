@@ -9,6 +9,7 @@ use solver::extruded::ExtrudedScene;
 use solver::record::{CycleReport, Snapshot, Summary};
 use solver::scene::{
     Accuracy, Dimension, Effect, Ends, Extruded, Layer, Line, LineShape, Motion, Scene, Table, Top,
+    WearLaw,
 };
 use solver::sides::Side;
 use solver::station::StationScene;
@@ -21,7 +22,7 @@ use crate::verification::verify_resume::resumes_to_the_same_bits;
 
 const WIDTH: f64 = 0.8;
 
-/// Both sides of the spring of a memory card with a layer that a base 20 times as soft lies under, +-5 um.
+/// The spring of a memory card with layers that are through after about a hundred cycles of +-5 um, over bases that wear 5 times as fast.
 pub(super) fn card(cycles: u64) -> Scene {
     let mut scene = spring(None, (20.0 * GOLD, 20.0 * GOLD), cycles);
     scene.motion = Motion::Reciprocating {
@@ -30,7 +31,7 @@ pub(super) fn card(cycles: u64) -> Scene {
     };
     scene.accuracy = Accuracy::from_tolerance(0.1);
     let layer = Layer {
-        thickness_mm: 0.04e-3,
+        thickness_mm: 3e-6,
         rate_per_mpa: 4.0 * GOLD,
     };
     (scene.slider.plating, scene.receptacle.plating) = (vec![layer], vec![layer]);
@@ -144,10 +145,15 @@ fn energy_along_a_line_is_the_integral_of_the_coefficient_over_the_work() {
 #[test]
 fn alike_sections_with_changing_friction_are_the_plane_contact() {
     let mut scene = card(120);
+    // The edge of a layer over a softer base amplifies what an iteration leaves.
+    let base = Some(WearLaw::Archard {
+        k_over_h_per_mpa: 4.0 * GOLD,
+    });
+    (scene.slider.wear, scene.receptacle.wear) = (base, base);
     scene.accuracy.cycle_jump = Some(3);
     // A line is solved with imposed slip.
-    scene.effects = scene.effects.clone().with(Effect::StickMemory, false);
-    scene.effects = scene.effects.clone().with(Effect::Friction, true);
+    let effects = scene.effects.clone().with(Effect::StickMemory, false);
+    scene.effects = effects.with(Effect::Friction, true);
     let plane = Scene {
         dimension: Dimension::PlaneStrain,
         ..scene.clone()
@@ -182,7 +188,7 @@ fn alike_sections_with_changing_friction_are_the_plane_contact() {
             );
             assert!(off.iter().all(|off| *off < 1e-9), "{name} {law:?}: {off:?}");
             // The plane contact is reported without the skew of its jump.
-            assert!(of_coefficient.abs() < 1e-3, "{of_coefficient}");
+            assert!(of_coefficient.abs() < 5e-3, "{of_coefficient}");
         }
     }
 }
@@ -191,11 +197,9 @@ fn alike_sections_with_changing_friction_are_the_plane_contact() {
 #[test]
 fn every_node_along_a_line_is_on_the_cone_of_its_own_coefficient() {
     let thickness = 1e-6;
-    for (name, mut scene) in contacts(45) {
-        if name == "ring" {
-            // Friction has a part along the line.
-            continue;
-        }
+    // Friction has a part along the line of a ring.
+    let contacts = contacts(45).into_iter();
+    for (name, mut scene) in contacts.filter(|(name, _)| *name != "ring") {
         scene.slider.plating.clear();
         scene.slider.wear = None;
         scene.receptacle.plating[0].thickness_mm = thickness;
@@ -282,6 +286,8 @@ fn jumps_along_a_line_follow_a_coefficient_that_changes() {
             let [found, exact] = [&scene, &single].map(|scene| solved(scene).0);
             let off = energy(&found) / energy(&exact) - 1.0;
             let computed = found.resolution.computed_cycles;
+            let unchanged = energy(&solved(&with(&scene, constant(LOW))).0);
+            assert!(energy(&exact) > 1.1 * unchanged, "the coefficient changes");
             println!("jumps of {name}: energy {off:.1e} off in {computed} of 400 computed cycles");
             assert!(off.abs() < 0.05, "{name}: {off}");
             assert!(computed < 200, "{name}: {computed}");
@@ -325,4 +331,20 @@ fn a_coefficient_under_which_a_line_would_stick_is_refused() {
     assert!(line(2e-3).check_all().is_ok() && bodies(2e-3).check_all().is_ok());
     let refused = format!("{:?} {:?}", line(0.9).check_all(), bodies(0.9).check_all());
     assert_eq!(refused.matches("Sticks").count(), 2, "{refused}");
+}
+
+/// No friction at first, and none in the end.
+#[test]
+fn a_coefficient_along_a_line_may_begin_or_end_at_nothing() {
+    for (name, scene) in contacts(45) {
+        let end = f64::from(u32::try_from(scene.cycles).expect("few cycles"));
+        for law in [
+            by_cycle(&[(0.0, 0.0), (end, 0.4)]),
+            by_cycle(&[(0.0, 0.4), (0.5 * end, 0.0)]),
+        ] {
+            let (summary, _) = solved(&with(&scene, law));
+            assert!(summary.checks.friction_cone < 1e-8, "{name}");
+            assert!(energy(&summary) > 0.0, "{name}");
+        }
+    }
 }

@@ -74,13 +74,16 @@ fn energy_of_a_ball_is_the_integral_of_the_coefficient_over_the_path() {
     let table = Table::new(&points);
     let mut scene = plated(0.05, 1_000, 0.02);
     let (summary, run) = solved(&with(&scene, by_cycle(&points)));
+    let mut worst = 0.0_f64;
     for report in run.reports.iter().filter(|report| report.jump > 0) {
         let cycle = real(report.cycle);
         let exact = table.mean(0.0, cycle) * FORCE * 4.0 * 0.05 * cycle;
-        assert!((energy(report) / exact - 1.0).abs() < 1e-10, "{cycle}");
+        worst = worst.max((energy(report) / exact - 1.0).abs());
         let mean = table.mean(cycle - real(report.jump), cycle);
         assert!((report.friction_coefficient / mean - 1.0).abs() < 1e-12);
     }
+    println!("ball, friction by cycle: energy {worst:.1e} off the integral over the path");
+    assert!(worst < 1e-10, "{worst}");
     assert!(summary.checks.friction_use < 1.0 + 1e-12);
     // Friction does not change what wears in gross slip, but bounds jumps.
     scene.accuracy.tuning.implicit_jumps = false;
@@ -297,5 +300,20 @@ fn balls_with_changing_friction_resume_to_the_same_bits_and_state_their_errors()
         let errors = summary.errors.expect("errors are estimated");
         assert!(errors.worn_depth.relative > 0.0, "{errors:?}");
         assert!(summary.last.side(Side::Slider).max_depth_mm > 0.0);
+    }
+}
+
+/// No friction at first, and none in the end.
+#[test]
+fn a_coefficient_of_a_ball_may_begin_or_end_at_nothing() {
+    for (name, scene) in contacts(60) {
+        for law in [
+            by_cycle(&[(0.0, 0.0), (60.0, 0.6)]),
+            by_cycle(&[(0.0, 0.6), (30.0, 0.0)]),
+        ] {
+            let (summary, _) = solved(&with(&scene, law));
+            assert!(energy(&summary.last) > 0.0, "{name}");
+            assert!(summary.checks.friction_use < 1.0 + 1e-12, "{name}");
+        }
     }
 }

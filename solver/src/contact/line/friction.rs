@@ -16,7 +16,7 @@ use std::ops::Range;
 /// Coefficient of friction at the coupled nodes, -.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Coefficient<'a> {
-    /// Those of the nodes from the first coupled one on.
+    /// Coefficients of the nodes from the first coupled one on.
     nodes: Coefficients<'a>,
     /// Components of the direction of friction across the line and along it at each of them, -; across it if absent.
     directions: &'a [[f64; 2]],
