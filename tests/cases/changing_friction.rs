@@ -88,6 +88,46 @@ async fn the_force_follows_a_coefficient_that_changes() {
     }
 }
 
+/// Largest tangential force of the whole contact at a cycle, N.
+async fn force_n(server: &Server, id: &str, cycle: u64) -> f64 {
+    let (_, found) = server
+        .get(&format!("/v1/jobs/{id}/results/loop?cycle={cycle}"))
+        .await;
+    let forces = found["tangential_force_n"].as_array();
+    let forces = forces.expect("a list").iter().filter_map(Value::as_f64);
+    forces.fold(0.0, |most: f64, force| most.max(force.abs()))
+}
+
+#[tokio::test]
+async fn the_force_of_a_contact_of_finite_width_follows_the_coefficient() {
+    let folder = tempfile::tempdir().expect("a folder can be made");
+    let server = Server::start(folder.path());
+    let by_cycle = json!({"law": "coulomb", "by_cycle": [
+        {"cycle": 0, "coefficient": LOW}, {"cycle": 20, "coefficient": LOW}, {"cycle": 40, "coefficient": HIGH}]});
+    for model in [
+        json!({"dimension": "point", "radius_z_mm": 0.4}),
+        json!({"dimension": "line", "width_mm": 0.8}),
+        json!({"dimension": "extruded", "width_mm": 0.8, "layers": 2, "ends": "held"}),
+    ] {
+        let mut spec = card(&by_cycle, &Value::Null);
+        spec["model"] = model.clone();
+        spec["load"] = json!({"kind": "force", "n": 0.5});
+        spec["cycles"] = json!(60);
+        spec["output"] = json!({"snapshots_at_cycles": [1, 60]});
+        let (status, job) = server.submit(spec.to_string()).await;
+        assert_eq!(status, 202, "{job}");
+        let id = job["id"].as_str().expect("a job has an id").to_owned();
+        let job = server
+            .job_when(&id, |job| job["finished_at"].is_string())
+            .await;
+        assert_eq!(job["outcome"], "completed", "{job}");
+        let first = force_n(&server, &id, 1).await;
+        let last = force_n(&server, &id, 60).await;
+        assert!((first / (0.5 * LOW) - 1.0).abs() < 0.02, "{model}: {first}");
+        assert!((last / (0.5 * HIGH) - 1.0).abs() < 0.05, "{model}: {last}");
+    }
+}
+
 #[tokio::test]
 async fn faults_of_a_table_name_the_point() {
     let folder = tempfile::tempdir().expect("a folder can be made");

@@ -2,7 +2,7 @@
 
 use api::spec::Spec;
 use solver::along_line::SectionsError;
-use solver::scene::{Friction, Mission, Motion, Scene};
+use solver::scene::{Mission, Motion, Scene};
 use solver::sides::Side;
 
 use crate::spec::diagnostics::Diagnostics;
@@ -45,7 +45,7 @@ pub(super) fn check(
     }
 }
 
-/// Wear by the dose alone, and one coefficient of friction.
+/// Checks that surfaces wear by the dose alone.
 pub(super) fn check_laws(scene: &Scene, contact: &str, diagnostics: &mut Diagnostics) {
     let wear = scene.surface_wear_of_all_motions();
     for side in Side::BOTH {
@@ -56,15 +56,6 @@ pub(super) fn check_laws(scene: &Scene, contact: &str, diagnostics: &mut Diagnos
             );
             diagnostics.fault(&pointer, detail);
         }
-    }
-    if !matches!(
-        scene.friction,
-        Friction::Frictionless | Friction::Coulomb { .. }
-    ) {
-        let detail = format!(
-            "a {contact} has one coefficient of friction; one that changes is simulated in `plane_strain` alone"
-        );
-        diagnostics.fault("/interface/friction", detail);
     }
 }
 

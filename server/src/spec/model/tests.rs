@@ -92,10 +92,6 @@ fn fields_that_mean_nothing_in_a_dimension_are_refused() {
             r#","mission":[{"motion":{"kind":"reciprocating"},"cycles":1000},{"motion":{"kind":"reciprocating","amplitude_mm":50},"cycles":1}]"#,
             "/mission",
         ),
-        (
-            r#","interface":{"friction":{"law":"coulomb","by_cycle":[{"cycle":0,"coefficient":0.2},{"cycle":9,"coefficient":0.4}]}}"#,
-            "/interface/friction",
-        ),
         (r#","effects":{"friction":"on"}"#, "/effects/friction"),
         (r#","effects":{"relocation":"on"}"#, "/effects/relocation"),
         (
@@ -120,6 +116,43 @@ fn a_point_has_the_motions_of_a_section() {
     let rest = r#","interface":{"wear":{"slider":null}},"plating":{"slider":[]},"motion":{"kind":"continuous","distance_mm":10}"#;
     let continuous = accepted(&ball(rest)).scene;
     assert!(matches!(continuous.motion, Motion::Continuous { .. }));
+}
+
+#[test]
+fn friction_changes_in_every_dimension_where_nothing_sticks_by_it() {
+    let by_cycle = r#"{"law":"coulomb","by_cycle":[{"cycle":0,"coefficient":0.2},{"cycle":9,"coefficient":0.4}]}"#;
+    let by_dose = r#"{"law":"coulomb","by_dose":[{"dose_mpa_mm":0,"coefficient":0.2},{"dose_mpa_mm":90,"coefficient":0.4}]}"#;
+    let of = |system: &str, model: &str, motion: &str, friction: &str| {
+        format!(
+            r#"{{"system":{{"kind":"{system}"}},"model":{model}{motion},"interface":{{"friction":{friction}}}}}"#
+        )
+    };
+    let crowned = r#"{"dimension":"auto","width_mm":0.8,"crown_radius_mm":10}"#;
+    let line = r#"{"dimension":"line","width_mm":0.8}"#;
+    let extruded = r#"{"dimension":"extruded","width_mm":0.8,"layers":2}"#;
+    for (system, model) in [
+        ("sd_card", r#"{"dimension":"point","radius_z_mm":0.4}"#),
+        ("sd_card", line),
+        ("sd_card", crowned),
+        ("sd_card", extruded),
+        (
+            "fuzz_button",
+            r#"{"dimension":"ring","outer_diameter_mm":1.016,"top":"rigid"}"#,
+        ),
+    ] {
+        for friction in [by_cycle, by_dose] {
+            let resolved = accepted(&of(system, model, "", friction));
+            assert!(resolved.scene.friction.changes());
+            assert_ne!(resolved.scene.dimension, Dimension::PlaneStrain, "{model}");
+        }
+    }
+    // A part would stick once the coefficient has risen.
+    let sticking = by_cycle.replace("0.4}", "2}");
+    let short = r#","motion":{"kind":"reciprocating","amplitude_mm":2e-4}"#;
+    for model in [line, extruded] {
+        let found = pointers(&of("sd_card", model, short, &sticking));
+        assert_eq!(found, ["/motion"], "{model}");
+    }
 }
 
 #[test]

@@ -95,17 +95,8 @@ fn section(spec: &Value) -> Section {
     }
 }
 
-/// One coefficient of friction, a reciprocating motion of the slider's top.
+/// A reciprocating motion of the slider's top.
 fn without_what_only_a_section_has(spec: &mut Value) {
-    let friction = &mut spec["interface"]["friction"];
-    for table in ["by_dose", "by_cycle"] {
-        let first = friction
-            .get(table)
-            .map(|rows| rows[0]["coefficient"].clone());
-        if let Some(first) = first {
-            *friction = json!({"law": "coulomb", "coefficient": first});
-        }
-    }
     spec["motion"]["drive"] = json!("slider_top");
     if let Some(terms) = spec["motion"].get("terms").cloned() {
         let amplitude = number(&terms[0]["sine_mm"]).hypot(number(&terms[0]["cosine_mm"]));
