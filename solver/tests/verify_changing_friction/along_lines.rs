@@ -265,36 +265,6 @@ fn a_step_by_cycle_along_a_line_is_two_runs() {
     }
 }
 
-/// The energy, to which the coefficient is a factor, beside runs of single cycles.
-#[test]
-fn jumps_along_a_line_follow_a_coefficient_that_changes() {
-    let mut card = card(400);
-    card.accuracy = Accuracy::from_tolerance(0.05);
-    for (name, scene) in [
-        ("line", as_line(&card, Some(CROWN), Top::Even)),
-        ("extruded", as_extruded(&card, Ends::Free)),
-    ] {
-        let layers = [LOW, HIGH];
-        for law in [
-            by_layer(&layers, &layers),
-            by_dose(&[(0.0, LOW), (2_000.0, HIGH)]),
-            by_cycle(&[(100.0, LOW), (200.0, HIGH)]),
-        ] {
-            let scene = with(&scene, law);
-            let mut single = scene.clone();
-            single.accuracy.cycle_jump = Some(1);
-            let [found, exact] = [&scene, &single].map(|scene| solved(scene).0);
-            let off = energy(&found) / energy(&exact) - 1.0;
-            let computed = found.resolution.computed_cycles;
-            let unchanged = energy(&solved(&with(&scene, constant(LOW))).0);
-            assert!(energy(&exact) > 1.1 * unchanged, "the coefficient changes");
-            println!("jumps of {name}: energy {off:.1e} off in {computed} of 400 computed cycles");
-            assert!(off.abs() < 0.05, "{name}: {off}");
-            assert!(computed < 200, "{name}: {computed}");
-        }
-    }
-}
-
 #[test]
 fn lines_with_changing_friction_resume_to_the_same_bits_and_state_their_errors() {
     let layers = [LOW, HIGH];
@@ -348,3 +318,5 @@ fn a_coefficient_along_a_line_may_begin_or_end_at_nothing() {
         }
     }
 }
+
+mod long;

@@ -238,39 +238,6 @@ fn partial_slip_grows_to_gross_slip_as_the_coefficient_falls() {
     assert!((summary.last.friction_coefficient - 0.02).abs() < 1e-15);
 }
 
-/// A layer of the base's rate, and a film that lasts the dose of its thickness; and either beside runs of single cycles.
-#[test]
-fn a_film_on_a_ball_is_a_layer_that_lasts_as_long() {
-    let scene = plated(0.02, 400, 0.02);
-    let dose = 0.03e-3 / (4.0 * GOLD);
-    let layers = [LOW, HIGH];
-    let mut energies = Vec::new();
-    for law in [
-        by_layer(&layers, &layers),
-        by_dose(&[(0.0, LOW), (dose, LOW), (1.000_001 * dose, HIGH)]),
-        by_dose(&[(0.0, LOW), (dose, HIGH)]),
-    ] {
-        let scene = with(&scene, law);
-        let mut single = scene.clone();
-        single.accuracy.cycle_jump = Some(1);
-        let [found, exact] = [&scene, &single].map(|scene| solved(scene).0);
-        let (found_mj, exact_mj) = (energy(&found.last), energy(&exact.last));
-        let off = found_mj / exact_mj - 1.0;
-        let computed = found.resolution.computed_cycles;
-        let share = exact_mj / (FORCE * 4.0 * 0.02 * 400.0);
-        println!(
-            "jumps of a ball: energy {off:.1e} off in {computed} computed cycles, mean coefficient {share:.3}"
-        );
-        assert!(off.abs() < 0.02 && computed < 200, "{off} {computed}");
-        assert!(share > 1.1 * LOW && share < HIGH, "{share}");
-        energies.push(found_mj);
-    }
-    assert!(
-        (energies[1] / energies[0] - 1.0).abs() < 2e-3,
-        "{energies:?}"
-    );
-}
-
 #[test]
 fn a_step_by_cycle_of_a_ball_is_two_runs() {
     for (name, mut scene) in contacts(600) {
@@ -315,5 +282,43 @@ fn a_coefficient_of_a_ball_may_begin_or_end_at_nothing() {
             assert!(energy(&summary.last) > 0.0, "{name}");
             assert!(summary.checks.friction_use < 1.0 + 1e-12, "{name}");
         }
+    }
+}
+
+mod long {
+    use super::*;
+
+    /// A layer of the base's rate, and a film that lasts the dose of its thickness; and either beside runs of single cycles.
+    #[test]
+    #[ignore = "long: takes a minute"]
+    fn a_film_on_a_ball_is_a_layer_that_lasts_as_long() {
+        let scene = plated(0.02, 400, 0.02);
+        let dose = 0.03e-3 / (4.0 * GOLD);
+        let layers = [LOW, HIGH];
+        let mut energies = Vec::new();
+        for law in [
+            by_layer(&layers, &layers),
+            by_dose(&[(0.0, LOW), (dose, LOW), (1.000_001 * dose, HIGH)]),
+            by_dose(&[(0.0, LOW), (dose, HIGH)]),
+        ] {
+            let scene = with(&scene, law);
+            let mut single = scene.clone();
+            single.accuracy.cycle_jump = Some(1);
+            let [found, exact] = [&scene, &single].map(|scene| solved(scene).0);
+            let (found_mj, exact_mj) = (energy(&found.last), energy(&exact.last));
+            let off = found_mj / exact_mj - 1.0;
+            let computed = found.resolution.computed_cycles;
+            let share = exact_mj / (FORCE * 4.0 * 0.02 * 400.0);
+            println!(
+                "jumps of a ball: energy {off:.1e} off in {computed} computed cycles, mean coefficient {share:.3}"
+            );
+            assert!(off.abs() < 0.02 && computed < 200, "{off} {computed}");
+            assert!(share > 1.1 * LOW && share < HIGH, "{share}");
+            energies.push(found_mj);
+        }
+        assert!(
+            (energies[1] / energies[0] - 1.0).abs() < 2e-3,
+            "{energies:?}"
+        );
     }
 }
