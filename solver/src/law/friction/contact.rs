@@ -59,9 +59,7 @@ impl ContactFriction {
             return Self::constant(law.unworn());
         }
         let surfaces = match law {
-            Friction::Frictionless | Friction::Coulomb { .. } => {
-                return Self::constant(law.unworn());
-            }
+            Friction::Frictionless | Friction::Coulomb { .. } => Sides::default(),
             Friction::ByCycle(table) => return Self::Uniform(table.clone()),
             Friction::ByDose(table) => {
                 Sides::from_fn(|side| SurfaceFriction::by_dose(table, (*wear.of(side))?))
