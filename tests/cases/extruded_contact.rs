@@ -30,12 +30,8 @@ async fn the_source_s_extruded_wire_is_a_job_with_node_planes() {
     wire["cycles"] = json!(40);
     wire["accuracy"] = json!({"preset": "draft"});
     wire["output"] = json!({"stations_mm": [0.0], "snapshots_at_cycles": [10, 40]});
-    let (status, job) = server.submit(wire.to_string()).await;
-    assert_eq!(status, 202, "{job}");
+    let job = server.ended(&wire).await;
     let id = job["id"].as_str().expect("a job has an id").to_owned();
-    let job = server
-        .job_when(&id, |job| job["finished_at"].is_string())
-        .await;
     assert_eq!(job["outcome"], "completed", "{job}");
     let summary = &job["summary"];
     let planes = summary["stations"].as_array().expect("node planes");

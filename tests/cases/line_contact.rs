@@ -35,12 +35,8 @@ fn ring() -> Value {
 async fn a_ring_is_a_job_with_sections() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
-    let (status, job) = server.submit(ring().to_string()).await;
-    assert_eq!(status, 202, "{job}");
+    let job = server.ended(&ring()).await;
     let id = job["id"].as_str().expect("a job has an id").to_owned();
-    let job = server
-        .job_when(&id, |job| job["finished_at"].is_string())
-        .await;
     assert_eq!(job["outcome"], "completed", "{job}");
     let summary = &job["summary"];
     // Under a rigid top all places sink alike, by k F/(2 R) a cycle but for the first ones, and the force is balanced.

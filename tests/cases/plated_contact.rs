@@ -29,12 +29,8 @@ fn entry<'a>(summary: &'a Value, side: &str, kind: &str) -> &'a Value {
 async fn a_plated_contact_names_its_life_and_its_exposed_layers() {
     let folder = tempfile::tempdir().expect("a folder can be made");
     let server = Server::start(folder.path());
-    let (status, job) = server.submit(plated().to_string()).await;
-    assert_eq!(status, 202, "{job}");
+    let job = server.ended(&plated()).await;
     let id = job["id"].as_str().expect("a job has an id").to_owned();
-    let job = server
-        .job_when(&id, |job| job["finished_at"].is_string())
-        .await;
     assert_eq!(job["outcome"], "stop_condition", "{job}");
     let mut effects = job["plan"]["effects"].as_array().expect("a list").iter();
     let plating = effects.find(|effect| effect["effect"] == "plating");
