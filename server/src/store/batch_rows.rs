@@ -9,23 +9,23 @@ use crate::store::StoreError;
 use crate::store::batches::{BatchJob, BatchOverview, Expansion, RefusedJob};
 use crate::store::document::status_and_reason;
 use crate::store::process_state::ProcessState;
-use crate::store::rows::{StoredRow, outcome, parsed, summary, timestamp};
+use crate::store::rows::{StoredRow, outcome, parsed, summary, timestamp, unsigned};
 
 /// Returns a batch without its jobs.
 pub(in crate::store) fn batch_overview(
     row: &impl StoredRow,
     counts: BTreeMap<String, u64>,
 ) -> Result<BatchOverview, StoreError> {
-    let number = |value: i64| u64::try_from(value).unwrap_or_default();
+    let asked: Option<i64> = row.value("asked")?;
     Ok(BatchOverview {
         id: row.id("id")?,
-        name: row.optional_text("name")?,
-        created_at: timestamp(row.integer("created_at")?),
+        name: row.value("name")?,
+        created_at: timestamp(row.value("created_at")?),
         counts,
-        asked: row.optional_integer("asked")?.map(number),
-        to_come: number(row.integer("to_come")?),
-        never_queued: number(row.integer("never_queued")?),
-        refused: number(row.integer("refused")?),
+        asked: asked.map(|asked| asked.try_into().unwrap_or_default()),
+        to_come: unsigned(row, "to_come")?,
+        never_queued: unsigned(row, "never_queued")?,
+        refused: unsigned(row, "refused")?,
     })
 }
 
@@ -38,8 +38,8 @@ pub(in crate::store) fn batch_job(
     let (status, status_reason) = status_and_reason(process, id, row)?;
     Ok(BatchJob {
         id,
-        position: row.integer("position")?.try_into().unwrap_or_default(),
-        overrides: parsed(id, "overrides", &row.text("overrides")?)?,
+        position: unsigned(row, "position")?,
+        overrides: parsed(id, "overrides", &row.value::<String>("overrides")?)?,
         status,
         status_reason,
         outcome: outcome(row)?,
@@ -54,23 +54,19 @@ pub(in crate::store) fn refused_job(
     row: &impl StoredRow,
 ) -> Result<RefusedJob, StoreError> {
     Ok(RefusedJob {
-        position: row.integer("position")?.try_into().unwrap_or_default(),
-        overrides: parsed(batch, "overrides", &row.text("overrides")?)?,
-        reason: row.text("reason")?,
+        position: unsigned(row, "position")?,
+        overrides: parsed(batch, "overrides", &row.value::<String>("overrides")?)?,
+        reason: row.value("reason")?,
     })
 }
 
 /// Returns a batch with jobs that are to be queued.
 pub(in crate::store) fn expansion(row: &impl StoredRow) -> Result<Expansion, StoreError> {
-    let number = |column| {
-        let value = row.integer(column)?;
-        Ok::<_, StoreError>(value.try_into().unwrap_or_default())
-    };
     Ok(Expansion {
         batch: row.id("sweep_id")?,
-        next: number("next")?,
-        jobs: number("jobs")?,
-        waiting: number("waiting")?,
+        next: unsigned(row, "next")?,
+        jobs: unsigned(row, "jobs")?,
+        waiting: unsigned(row, "waiting")?,
     })
 }
 

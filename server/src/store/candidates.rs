@@ -31,13 +31,13 @@ impl Candidate {
     /// Reads it from its row.
     pub(in crate::store) fn read(row: &impl StoredRow) -> Result<Self, StoreError> {
         let worker = row.optional_id("avoided_worker")?;
-        let until = row.optional_integer("avoided_until")?;
+        let until = row.value("avoided_until")?;
         Ok(Self {
             id: row.id("id")?,
             job: WaitingJob {
-                memory_mb: row.integer("memory_mb")?,
-                since: row.integer("queued_at")?,
-                cpu_ms: row.integer("cpu_ms")?,
+                memory_mb: row.value("memory_mb")?,
+                since: row.value("queued_at")?,
+                cpu_ms: row.value("cpu_ms")?,
             },
             avoided: worker.zip(until),
         })

@@ -17,11 +17,11 @@ pub(in crate::store) fn document(
 ) -> Result<Job, StoreError> {
     let id = row.id("id")?;
     let (status, reason) = status_and_reason(process, id, row)?;
-    let (spec, plan) = match row.optional_bytes("packed")? {
+    let (spec, plan) = match row.value::<Option<Vec<u8>>>("packed")? {
         Some(packed) => unpack(id, &packed)?,
         None => (
-            parsed(id, "specification", &row.text("spec")?)?,
-            parsed(id, "plan", &row.text("plan")?)?,
+            parsed(id, "specification", &row.value::<String>("spec")?)?,
+            parsed(id, "plan", &row.value::<String>("plan")?)?,
         ),
     };
     Ok(Job {
@@ -31,10 +31,10 @@ pub(in crate::store) fn document(
         outcome: outcome(row)?,
         priority: unsigned(row, "priority")?,
         deadline_at: deadline(process, row)?,
-        created_at: timestamp(row.integer("created_at")?),
+        created_at: timestamp(row.value("created_at")?),
         started_at: time(row, "started_at")?,
         finished_at: time(row, "finished_at")?,
-        progress: parsed(id, "progress", &row.text("progress")?)?,
+        progress: parsed(id, "progress", &row.value::<String>("progress")?)?,
         attempts: unsigned(row, "attempts")?,
         spec,
         plan: Some(plan),
@@ -49,7 +49,7 @@ pub(in crate::store) fn status_and_reason(
     id: Uuid,
     row: &impl StoredRow,
 ) -> Result<(Status, Option<String>), StoreError> {
-    let (status, stored) = (status(id, row)?, row.optional_text("status_reason")?);
+    let (status, stored) = (status(id, row)?, row.value("status_reason")?);
     Ok((status, process.disk.status_reason(status).or(stored)))
 }
 
@@ -58,10 +58,8 @@ pub(in crate::store) fn deadline(
     process: &ProcessState,
     row: &impl StoredRow,
 ) -> Result<Option<String>, StoreError> {
-    let (at, finished) = (
-        row.optional_integer("deadline_at")?,
-        row.optional_integer("finished_at")?,
-    );
+    let at: Option<i64> = row.value("deadline_at")?;
+    let finished: Option<i64> = row.value("finished_at")?;
     let step_ms = finished.map_or_else(|| process.clock.stepped_ms(), |_| 0);
     Ok(at.map(|at| timestamp(at.saturating_add(step_ms))))
 }

@@ -112,8 +112,8 @@ pub(in crate::store) fn place(
 ) -> Result<ListPlace, StoreError> {
     let value = match key.kind() {
         OrderKind::Id => None,
-        OrderKind::Number => row.optional_number(ORDER_VALUE)?.map(OrderValue::Number),
-        OrderKind::Text => row.optional_text(ORDER_VALUE)?.map(OrderValue::Text),
+        OrderKind::Number => row.value::<Option<_>>(ORDER_VALUE)?.map(OrderValue::Number),
+        OrderKind::Text => row.value::<Option<_>>(ORDER_VALUE)?.map(OrderValue::Text),
     };
     Ok(ListPlace {
         id: row.id("id")?,

@@ -15,11 +15,12 @@ pub(in crate::store) fn overview(
 ) -> Result<JobOverview, StoreError> {
     let id = row.id("id")?;
     let (status, status_reason) = status_and_reason(process, id, row)?;
-    let (name, labels) = (row.optional_text("name")?, row.optional_text("labels")?);
+    let name: Option<String> = row.value("name")?;
+    let labels: Option<String> = row.value("labels")?;
     Ok(JobOverview {
         id,
         name: name.map_or(Ok(None), |name| parsed(id, "name", &name))?,
-        system: row.text("system")?,
+        system: row.value("system")?,
         labels: labels.map_or_else(
             || Ok(std::collections::BTreeMap::new()),
             |labels| parsed(id, "labels", &labels),
@@ -29,10 +30,10 @@ pub(in crate::store) fn overview(
         outcome: outcome(row)?,
         priority: unsigned(row, "priority")?,
         deadline_at: deadline(process, row)?,
-        created_at: timestamp(row.integer("created_at")?),
+        created_at: timestamp(row.value("created_at")?),
         started_at: time(row, "started_at")?,
         finished_at: time(row, "finished_at")?,
-        progress: parsed(id, "progress", &row.text("progress")?)?,
+        progress: parsed(id, "progress", &row.value::<String>("progress")?)?,
         attempts: unsigned(row, "attempts")?,
         key_figures: key_figures(id, row)?,
         links: links(id),
@@ -41,7 +42,7 @@ pub(in crate::store) fn overview(
 
 fn key_figures(id: Uuid, row: &impl StoredRow) -> Result<Option<KeyFigures>, StoreError> {
     let figure = |column: &str| -> Result<Option<f64>, StoreError> {
-        let text = row.optional_text(column)?;
+        let text: Option<String> = row.value(column)?;
         text.map(|text| parsed(id, "summary", &text)).transpose()
     };
     let (Some(receptacle), Some(slider), Some(pressure), Some(error)) = (
@@ -57,6 +58,6 @@ fn key_figures(id: Uuid, row: &impl StoredRow) -> Result<Option<KeyFigures>, Sto
         slider_max_depth_mm: slider,
         peak_pressure_mpa: pressure,
         estimated_relative_error: error,
-        life_cycles: row.optional_number("life")?,
+        life_cycles: row.value("life")?,
     }))
 }

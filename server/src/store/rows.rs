@@ -6,10 +6,22 @@ use api::results::{ResultFile, Snapshot, Summary};
 use api::worker::{RemoteWorker, WorkerToken};
 use jiff::Timestamp;
 use serde::de::DeserializeOwned;
+use sqlx::{Decode, Postgres, Sqlite, Type};
 use uuid::Uuid;
 
 use crate::clock::Now;
 use crate::store::{Claim, ClaimedCheckpoint, StoreError};
+
+/// A value of a column that every engine reads alike.
+pub(in crate::store) trait StoredValue:
+    for<'r> Decode<'r, Sqlite> + Type<Sqlite> + for<'r> Decode<'r, Postgres> + Type<Postgres>
+{
+}
+
+impl<T> StoredValue for T where
+    T: for<'r> Decode<'r, Sqlite> + Type<Sqlite> + for<'r> Decode<'r, Postgres> + Type<Postgres>
+{
+}
 
 /// A row of an engine, whose columns are read by name.
 pub(in crate::store) trait StoredRow {
@@ -17,85 +29,19 @@ pub(in crate::store) trait StoredRow {
     fn id(&self, column: &str) -> Result<Uuid, StoreError>;
     /// An id that may be absent.
     fn optional_id(&self, column: &str) -> Result<Option<Uuid>, StoreError>;
-    /// A text that may be absent.
-    fn optional_text(&self, column: &str) -> Result<Option<String>, StoreError>;
-    /// A text.
-    fn text(&self, column: &str) -> Result<String, StoreError>;
-    /// An integer that may be absent.
-    fn optional_integer(&self, column: &str) -> Result<Option<i64>, StoreError>;
-    /// An integer.
-    fn integer(&self, column: &str) -> Result<i64, StoreError>;
-    /// A number that may be absent.
-    fn optional_number(&self, column: &str) -> Result<Option<f64>, StoreError>;
-    /// Bytes that may be absent.
-    fn optional_bytes(&self, column: &str) -> Result<Option<Vec<u8>>, StoreError>;
+    /// A text, a number, a truth value or bytes; an `Option` where it may be absent.
+    fn value<T: StoredValue>(&self, column: &str) -> Result<T, StoreError>;
 }
-
-/// Implements [`StoredRow`] for the row of an engine, whose ids are of a type.
-macro_rules! stored_row {
-    ($row:ty, $id:ty) => {
-        impl $crate::store::rows::StoredRow for $row {
-            fn id(&self, column: &str) -> Result<uuid::Uuid, $crate::store::StoreError> {
-                Ok(sqlx::Row::try_get::<$id, _>(self, column)?.into())
-            }
-
-            fn optional_id(
-                &self,
-                column: &str,
-            ) -> Result<Option<uuid::Uuid>, $crate::store::StoreError> {
-                let id = sqlx::Row::try_get::<Option<$id>, _>(self, column)?;
-                Ok(id.map(Into::into))
-            }
-
-            fn optional_text(
-                &self,
-                column: &str,
-            ) -> Result<Option<String>, $crate::store::StoreError> {
-                Ok(sqlx::Row::try_get(self, column)?)
-            }
-
-            fn text(&self, column: &str) -> Result<String, $crate::store::StoreError> {
-                Ok(sqlx::Row::try_get(self, column)?)
-            }
-
-            fn optional_integer(
-                &self,
-                column: &str,
-            ) -> Result<Option<i64>, $crate::store::StoreError> {
-                Ok(sqlx::Row::try_get(self, column)?)
-            }
-
-            fn integer(&self, column: &str) -> Result<i64, $crate::store::StoreError> {
-                Ok(sqlx::Row::try_get(self, column)?)
-            }
-
-            fn optional_number(
-                &self,
-                column: &str,
-            ) -> Result<Option<f64>, $crate::store::StoreError> {
-                Ok(sqlx::Row::try_get(self, column)?)
-            }
-
-            fn optional_bytes(
-                &self,
-                column: &str,
-            ) -> Result<Option<Vec<u8>>, $crate::store::StoreError> {
-                Ok(sqlx::Row::try_get(self, column)?)
-            }
-        }
-    };
-}
-pub(in crate::store) use stored_row;
 
 /// Reads the status of a job.
 pub(in crate::store) fn status(id: Uuid, row: &impl StoredRow) -> Result<Status, StoreError> {
-    let name = row.text("status")?;
+    let name: String = row.value("status")?;
     Status::from_name(&name).ok_or_else(|| corrupt(id, "status", &name))
 }
 
 /// Reads the outcome of a job.
 pub(in crate::store) fn outcome(row: &impl StoredRow) -> Result<Option<Outcome>, StoreError> {
-    let name = row.optional_text("outcome")?;
+    let name: Option<String> = row.value("outcome")?;
     Ok(name.as_deref().and_then(Outcome::from_name))
 }
 
@@ -104,7 +50,7 @@ pub(in crate::store) fn summary(
     id: Uuid,
     row: &impl StoredRow,
 ) -> Result<Option<Summary>, StoreError> {
-    let text = row.optional_text("summary")?;
+    let text: Option<String> = row.value("summary")?;
     text.map(|text| parsed(id, "summary", &text)).transpose()
 }
 
@@ -113,7 +59,7 @@ pub(in crate::store) fn time(
     row: &impl StoredRow,
     column: &str,
 ) -> Result<Option<String>, StoreError> {
-    Ok(row.optional_integer(column)?.map(timestamp))
+    Ok(row.value::<Option<_>>(column)?.map(timestamp))
 }
 
 /// Reads a count.
@@ -121,19 +67,19 @@ pub(in crate::store) fn unsigned<T: TryFrom<i64> + Default>(
     row: &impl StoredRow,
     column: &str,
 ) -> Result<T, StoreError> {
-    Ok(row.integer(column)?.try_into().unwrap_or_default())
+    Ok(row.value::<i64>(column)?.try_into().unwrap_or_default())
 }
 
 /// Reads the entry of a file in a manifest.
 pub(in crate::store) fn entry(row: &impl StoredRow) -> Result<ResultFile, StoreError> {
-    let cycle = row.optional_integer("cycle")?;
+    let cycle: Option<i64> = row.value("cycle")?;
     Ok(ResultFile {
-        name: row.text("name")?,
+        name: row.value("name")?,
         cycle: cycle.and_then(|cycle| cycle.try_into().ok()),
-        media_type: row.text("media_type")?,
+        media_type: row.value("media_type")?,
         bytes: unsigned(row, "bytes")?,
-        sha256: row.text("sha256")?,
-        damaged: row.optional_text("damaged")?,
+        sha256: row.value("sha256")?,
+        damaged: row.value("damaged")?,
     })
 }
 
@@ -141,8 +87,8 @@ pub(in crate::store) fn entry(row: &impl StoredRow) -> Result<ResultFile, StoreE
 pub(in crate::store) fn token(row: &impl StoredRow) -> Result<WorkerToken, StoreError> {
     Ok(WorkerToken {
         id: row.id("id")?,
-        name: row.text("name")?,
-        created_at: timestamp(row.integer("created_at")?),
+        name: row.value("name")?,
+        created_at: timestamp(row.value("created_at")?),
         revoked_at: time(row, "revoked_at")?,
     })
 }
@@ -154,16 +100,16 @@ pub(in crate::store) fn claim(
     now: Now,
     checkpoint: Option<ClaimedCheckpoint>,
 ) -> Result<Claim, StoreError> {
-    let deadline_at = row.optional_integer("deadline_at")?;
+    let deadline_at: Option<i64> = row.value("deadline_at")?;
     Ok(Claim {
         id,
-        lease: row.integer("lease")?,
-        spec: row.text("spec")?,
+        lease: row.value("lease")?,
+        spec: row.value("spec")?,
         attempt: unsigned(row, "attempts")?,
-        waited_ms: now.monotonic_ms.saturating_sub(row.integer("queued_at")?),
+        waited_ms: now.monotonic_ms.saturating_sub(row.value("queued_at")?),
         deadline_in_ms: deadline_at.map(|at| at.saturating_sub(now.monotonic_ms)),
-        memory_mb: row.integer("memory_mb")?,
-        cpu_ms: row.integer("cpu_ms")?,
+        memory_mb: row.value("memory_mb")?,
+        cpu_ms: row.value("cpu_ms")?,
         checkpoint,
     })
 }
@@ -208,21 +154,17 @@ pub(in crate::store) fn remote_worker(
     row: &impl StoredRow,
     now: i64,
 ) -> Result<RemoteWorker, StoreError> {
-    let number = |column| {
-        let value = row.integer(column)?;
-        Ok::<u64, StoreError>(value.try_into().unwrap_or_default())
-    };
-    let since = now.saturating_sub(row.integer("last_contact_at")?);
+    let since = now.saturating_sub(row.value("last_contact_at")?);
     Ok(RemoteWorker {
         id: row.id("id")?,
-        host: row.text("host")?,
-        slots: number("slots")?,
-        jobs: number("jobs")?,
-        memory_mb: number("memory_mb")?,
-        free_memory_mb: number("free_memory_mb")?,
+        host: row.value("host")?,
+        slots: unsigned(row, "slots")?,
+        jobs: unsigned(row, "jobs")?,
+        memory_mb: unsigned(row, "memory_mb")?,
+        free_memory_mb: unsigned(row, "free_memory_mb")?,
         last_contact_s: (since / 1_000).try_into().unwrap_or_default(),
-        is_draining: row.integer("is_draining")? != 0,
-        failing: row.optional_text("failing")?,
+        is_draining: row.value::<i64>("is_draining")? != 0,
+        failing: row.value("failing")?,
     })
 }
 

@@ -15,7 +15,7 @@ pub(in crate::store) fn file(
     row: &impl StoredRow,
     object: Option<&str>,
 ) -> Result<(ResultFile, Content), StoreError> {
-    if let Some(content) = row.optional_bytes("content")? {
+    if let Some(content) = row.value("content")? {
         return Ok((entry(row)?, Content::Inline(content)));
     }
     let entry = entry(row)?;
@@ -42,7 +42,7 @@ pub(in crate::store) fn source(
         let part = ObjectPart::new(objects, key, 0..entry.bytes);
         return Ok(Some(Source::Object(part)));
     }
-    let Some(place) = row.optional_text("place")? else {
+    let Some(place) = row.value::<Option<String>>("place")? else {
         return Ok(None);
     };
     let path = process.folder.path(&place);

@@ -251,7 +251,7 @@ async fn claimed_before(
     for row in rows {
         let id = row.id("id")?;
         let checkpoint = checkpoints::restore(connection, id).await?;
-        let index = usize::try_from(row.integer("n")? - 1).unwrap_or(usize::MAX);
+        let index = usize::try_from(row.value::<i64>("n")? - 1).unwrap_or(usize::MAX);
         if let Some(claims) = claims.get_mut(index) {
             claims.push(claim(id, &row, now, checkpoint)?);
         }
@@ -313,7 +313,7 @@ async fn claim_admitted(
     for row in rows {
         let id = row.id("id")?;
         // Under its first lease a job has no results.
-        let checkpoint = if row.integer("lease")? == step {
+        let checkpoint = if row.value::<i64>("lease")? == step {
             None
         } else {
             checkpoints::restore(connection, id).await?
@@ -321,9 +321,9 @@ async fn claim_admitted(
         let from_cycle = checkpoint.as_ref().map_or(0, ClaimedCheckpoint::cycle);
         let claim = claim(id, &row, now, checkpoint)?;
         ids.push(id);
-        seqs.push(row.integer("last_event")?);
+        seqs.push(row.value::<i64>("last_event")?);
         events.push(attempt_event(claim.attempt, from_cycle)?);
-        claimed.push((row.integer("n")?, claim));
+        claimed.push((row.value::<i64>("n")?, claim));
     }
     sqlx::query(
         "INSERT INTO events (job_id, seq, name, data) \

@@ -1,12 +1,9 @@
 //! Statements that several files share.
 
-use sqlx::postgres::{PgConnection, PgRow};
+use sqlx::postgres::PgConnection;
 use uuid::Uuid;
 
 use crate::store::StoreError;
-use crate::store::rows::stored_row;
-
-stored_row!(PgRow, Uuid);
 
 /// An event that is appended.
 #[derive(Debug)]

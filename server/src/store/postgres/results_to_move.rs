@@ -40,7 +40,7 @@ impl PostgresStore {
             Ok(Stored {
                 id,
                 block: StoredBlock::new(entries, content, key, bytes),
-                texts: (row.text("spec")?, row.text("plan")?),
+                texts: (row.value("spec")?, row.value("plan")?),
                 events: events.remove(&id).unwrap_or_default(),
                 files: files.remove(&id).unwrap_or_else(|| Ok(Vec::new())),
             })
@@ -66,7 +66,7 @@ impl PostgresStore {
             rows_of.entry(row.id("job_id")?).or_default().push(row);
         }
         let file = |id, row: &PgRow| {
-            let object = row.optional_text("object")?;
+            let object: Option<String> = row.value("object")?;
             file_to_move(&self.process, id, row, object.as_deref())
         };
         let files = rows_of

@@ -40,7 +40,7 @@ impl PostgresStore {
         let last_of = |rows: &[PgRow]| {
             rows.last()
                 .filter(|_| rows.len() >= MOST)
-                .map(|row| row.integer("revision"))
+                .map(|row| row.value::<i64>("revision"))
         };
         let ends = [last_of(&rows), last_of(&deleted)].into_iter().flatten();
         let end = ends
@@ -51,10 +51,10 @@ impl PostgresStore {
         let mut changes = Vec::with_capacity(rows.len() + deleted.len());
         for row in &rows {
             let job = Changed::Job(Box::new(overview(&self.process, row)?));
-            changes.push((row.integer("revision")?, job));
+            changes.push((row.value("revision")?, job));
         }
         for row in &deleted {
-            changes.push((row.integer("revision")?, Changed::Deleted(row.id("id")?)));
+            changes.push((row.value("revision")?, Changed::Deleted(row.id("id")?)));
         }
         changes.retain(|(revision, _)| *revision <= end);
         changes.sort_by_key(|(revision, _)| *revision);

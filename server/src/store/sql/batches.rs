@@ -59,8 +59,8 @@ impl EngineStore {
         let refused = refused.iter().map(|row| refused_job(id, row));
         Ok(Some(StoredBatch {
             overview: batch_overview(&batch, self.batch_counts(id).await?)?,
-            plan: batch.optional_text("plan")?,
-            request: batch.optional_text("request")?,
+            plan: batch.value("plan")?,
+            request: batch.value("request")?,
             jobs,
             refused: refused.collect::<Result<_, _>>()?,
         }))

@@ -52,7 +52,7 @@ impl EngineStore {
         let Some(row) = row else {
             return Ok(None);
         };
-        let object = row.optional_text("object")?;
+        let object: Option<String> = row.value("object")?;
         file(&self.process, id, &row, object.as_deref()).map(Some)
     }
 
@@ -70,7 +70,8 @@ impl EngineStore {
             .await?;
         let mut files = Vec::with_capacity(rows.len());
         for row in &rows {
-            let (entry, object) = (entry(row)?, row.optional_text("object")?);
+            let object: Option<String> = row.value("object")?;
+            let entry = entry(row)?;
             let source = source(&self.process, id, &entry, row, object.as_deref())?;
             files.extend(source.map(|source| (entry, source)));
         }

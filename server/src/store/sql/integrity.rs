@@ -46,8 +46,8 @@ impl VerifiableDatabase for Pool<Engine> {
         let file = |row: &Row| {
             Ok(FileRow {
                 entry: entry(row)?,
-                place: row.optional_text("place")?,
-                object: row.optional_text("object")?,
+                place: row.value("place")?,
+                object: row.value("object")?,
             })
         };
         rows.iter().map(file).collect()

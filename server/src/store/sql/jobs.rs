@@ -21,8 +21,8 @@ impl EngineStore {
         Ok(Some(StoredJob {
             waits_for_disk: self.process.disk.status_reason(document.status).is_some(),
             document,
-            version: row.integer("version")?,
-            last_event: row.integer("last_event")?,
+            version: row.value("version")?,
+            last_event: row.value("last_event")?,
         }))
     }
 

@@ -20,4 +20,5 @@ pub(super) mod stored_blocks;
 mod worker_tokens;
 mod workers;
 
+mod stored_row;
 use super::{checkpoint_objects, dialect, queries, transitions};

@@ -171,7 +171,7 @@ async fn claim(
     let checkpoint = checkpoints::restore(transaction, id).await?;
     let from_cycle = checkpoint.as_ref().map_or(0, ClaimedCheckpoint::cycle);
     let claim = rows::claim(id, &row, now, checkpoint)?;
-    let event = row.integer("last_event")?;
+    let event = row.value("last_event")?;
     insert_attempt_event(transaction, id, event, claim.attempt, from_cycle).await?;
     Ok(claim)
 }

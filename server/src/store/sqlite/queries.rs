@@ -1,18 +1,12 @@
 //! Statements that several files share.
 
 use sqlx::SqliteConnection;
-use sqlx::sqlite::SqliteRow;
 use uuid::Uuid;
-use uuid::fmt::Hyphenated;
 
 use crate::store::StoreError;
-use crate::store::rows::stored_row;
 
 /// Takes the write lock at once: a transaction that reads first and writes later would fail under contention.
 pub(super) const BEGIN: &str = "BEGIN IMMEDIATE";
-
-// Ids are stored as text with hyphens.
-stored_row!(SqliteRow, Hyphenated);
 
 /// Appends an event; the caller has raised `jobs.last_event` to `seq` in the same transaction.
 pub(super) async fn insert_event(

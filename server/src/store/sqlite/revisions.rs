@@ -43,11 +43,11 @@ impl SqliteStore {
         let mut changes = Vec::with_capacity(rows.len() + deleted.len());
         for row in &rows {
             let job = Changed::Job(Box::new(overview(&self.process, row)?));
-            changes.push((row.integer("revision")?, job));
+            changes.push((row.value("revision")?, job));
         }
         for row in &deleted {
             let id = Changed::Deleted(row.id("id")?);
-            changes.push((row.integer("revision")?, id));
+            changes.push((row.value("revision")?, id));
         }
         changes.sort_unstable_by_key(|(revision, _)| *revision);
         changes.truncate(usize::from(MOST));
