@@ -5,7 +5,6 @@
 //! end by themselves.
 
 mod batch_portions;
-mod batch_submissions;
 mod blocks;
 mod checkpoint_objects;
 mod claimed;

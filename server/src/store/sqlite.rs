@@ -5,7 +5,6 @@
 
 pub(in crate::store) mod backup;
 mod batch_portions;
-mod batch_submissions;
 mod blocks;
 mod checkpoint_objects;
 mod claims;

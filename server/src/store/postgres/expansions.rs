@@ -5,58 +5,38 @@ use uuid::Uuid;
 
 use crate::clock::Now;
 use crate::store::StoreError;
-use crate::store::batches::{NewBatchJob, Portion};
+use crate::store::batches::{NewBatchJob, RefusedJob};
 use crate::store::job_ids::new_id;
 use crate::store::new_row::NewRow;
-use crate::store::postgres::PostgresStore;
 use crate::store::postgres::insertion::insert;
 use crate::store::rows::integer;
 
 /// Jobs that a statement adds: their specifications, of up to a megabyte each, are in memory. Arbitrary.
 const ROWS: usize = 32;
 
-impl PostgresStore {
-    pub(in crate::store) async fn extend_batch(
-        &self,
-        portion: &Portion,
-    ) -> Result<bool, StoreError> {
-        self.process.disk.check()?;
-        let (mut transaction, now) = self.begin().await?;
-        let positions = &portion.positions;
-        let refused: Option<i64> = sqlx::query_scalar(
-            "UPDATE expansions SET next = $1, is_over = $1 >= jobs, refused = refused + $4 \
-             WHERE sweep_id = $2 AND next = $3 AND NOT is_over RETURNING refused",
-        )
-        .bind(integer(positions.end))
-        .bind(portion.batch)
-        .bind(integer(positions.start))
-        .bind(integer(portion.refused.len()))
-        .fetch_optional(&mut *transaction)
-        .await?;
-        let Some(refused) = refused else {
-            return Ok(false);
-        };
-        insert_jobs(&mut transaction, portion.batch, &portion.jobs, now).await?;
-        let (mut positions, mut overrides, mut reasons) = (Vec::new(), Vec::new(), Vec::new());
-        for refused in portion.stored_refusals(refused) {
-            positions.push(integer(refused.position));
-            overrides.push(serde_json::to_string(&refused.overrides)?);
-            reasons.push(refused.reason.as_str());
-        }
-        sqlx::query(
-            "INSERT INTO refused_jobs (sweep_id, position, overrides, reason) \
-             SELECT $1, * FROM unnest($2::bigint[], $3::text[], $4::text[])",
-        )
-        .bind(portion.batch)
-        .bind(positions)
-        .bind(overrides)
-        .bind(reasons)
-        .execute(&mut *transaction)
-        .await?;
-        transaction.commit().await?;
-        self.process.many_wait();
-        Ok(true)
+/// Notes combinations of changes that make no valid jobs.
+pub(super) async fn insert_refusals(
+    connection: &mut PgConnection,
+    batch: Uuid,
+    refusals: &[RefusedJob],
+) -> Result<(), StoreError> {
+    let (mut positions, mut overrides, mut reasons) = (Vec::new(), Vec::new(), Vec::new());
+    for refused in refusals {
+        positions.push(integer(refused.position));
+        overrides.push(serde_json::to_string(&refused.overrides)?);
+        reasons.push(refused.reason.as_str());
     }
+    sqlx::query(
+        "INSERT INTO refused_jobs (sweep_id, position, overrides, reason) \
+         SELECT $1, * FROM unnest($2::bigint[], $3::text[], $4::text[])",
+    )
+    .bind(batch)
+    .bind(positions)
+    .bind(overrides)
+    .bind(reasons)
+    .execute(connection)
+    .await?;
+    Ok(())
 }
 
 /// Queues jobs of a batch.

@@ -159,7 +159,7 @@ impl EngineStore {
 }
 
 /// Returns the batch that an earlier request with the same key queued.
-pub(in super::super) async fn submitted(
+pub(super) async fn submitted(
     database: impl sqlx::Executor<'_, Database = Engine>,
     key: &RequestKey,
 ) -> Result<Option<Submitted>, StoreError> {

@@ -4,9 +4,10 @@ use sqlx::AssertSqlSafe;
 use uuid::Uuid;
 
 use super::dialect::{BY_SWEEP, Connection, EngineStore, stored_id};
+use super::expansions::{insert_jobs, insert_refusals};
 use crate::store::StoreError;
 use crate::store::batch_rows::expansion;
-use crate::store::batches::{Expansion, NewExpansion};
+use crate::store::batches::{Expansion, NewExpansion, Portion};
 use crate::store::gauges::UNKNOWN_CPU_MS;
 use crate::store::new_row::estimated;
 use crate::store::rows::integer;
@@ -34,10 +35,38 @@ impl EngineStore {
         .bind(stored_id(batch));
         Ok(request.fetch_optional(&self.readers).await?)
     }
+
+    pub(in crate::store) async fn extend_batch(
+        &self,
+        portion: &Portion,
+    ) -> Result<bool, StoreError> {
+        self.process.disk.check()?;
+        let (mut transaction, now) = self.begin().await?;
+        let positions = &portion.positions;
+        let refused: Option<i64> = sqlx::query_scalar(
+            "UPDATE expansions SET next = $1, is_over = $1 >= jobs, refused = refused + $4 \
+             WHERE sweep_id = $2 AND next = $3 AND NOT is_over RETURNING refused",
+        )
+        .bind(integer(positions.end))
+        .bind(stored_id(portion.batch))
+        .bind(integer(positions.start))
+        .bind(integer(portion.refused.len()))
+        .fetch_optional(&mut *transaction)
+        .await?;
+        let Some(refused) = refused else {
+            return Ok(false);
+        };
+        insert_jobs(&mut transaction, portion.batch, &portion.jobs, now).await?;
+        let refusals = portion.stored_refusals(refused);
+        insert_refusals(&mut transaction, portion.batch, refusals).await?;
+        transaction.commit().await?;
+        self.process.many_wait();
+        Ok(true)
+    }
 }
 
 /// Notes the jobs that are to be queued.
-pub(in super::super) async fn insert_expansion(
+pub(super) async fn insert_expansion(
     connection: &mut Connection,
     batch: Uuid,
     expansion: &NewExpansion,

@@ -2,10 +2,11 @@
 
 pub(super) mod attempts;
 pub(super) mod batch_endings;
-pub(super) mod batches;
+mod batch_submissions;
+mod batches;
 pub(super) mod checkpoints;
 mod events;
-pub(super) mod expansion_rows;
+mod expansion_rows;
 mod files;
 pub(super) mod held_leases;
 mod integrity;
@@ -21,4 +22,4 @@ mod worker_tokens;
 mod workers;
 
 mod stored_row;
-use super::{checkpoint_objects, dialect, queries, transitions};
+use super::{checkpoint_objects, dialect, expansions, queries, transitions};

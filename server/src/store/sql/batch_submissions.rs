@@ -1,18 +1,17 @@
 //! Submission of batches.
 
-use sqlx::postgres::PgConnection;
 use uuid::Uuid;
 
+use super::batches::submitted;
+use super::dialect::{Connection, EngineStore, stored_id};
+use super::expansion_rows::insert_expansion;
+use super::expansions::insert_jobs;
 use crate::clock::Now;
 use crate::store::batches::NewBatch;
 use crate::store::job_ids::new_id;
-use crate::store::postgres::PostgresStore;
-use crate::store::postgres::expansions::insert_jobs;
-use crate::store::postgres::sql::batches::submitted;
-use crate::store::postgres::sql::expansion_rows::insert_expansion;
 use crate::store::{RequestKey, StoreError, Submitted};
 
-impl PostgresStore {
+impl EngineStore {
     pub(in crate::store) async fn submit_batch(
         &self,
         batch: &NewBatch,
@@ -40,7 +39,7 @@ impl PostgresStore {
 
 /// Adds a batch without its jobs; false if an earlier request with the same key has added one.
 async fn insert_batch(
-    connection: &mut PgConnection,
+    connection: &mut Connection,
     id: Uuid,
     batch: &NewBatch,
     key: Option<&RequestKey>,
@@ -51,7 +50,7 @@ async fn insert_batch(
          VALUES ($1, $2, $3, $4, $5, $6, (SELECT passed_ms FROM service_time)) \
          ON CONFLICT (request_key) DO NOTHING",
     )
-    .bind(id)
+    .bind(stored_id(id))
     .bind(&batch.name)
     .bind(&batch.base)
     .bind(now.system_ms)
@@ -61,7 +60,7 @@ async fn insert_batch(
     .await?;
     if let Some(plan) = batch.plan.as_ref().filter(|_| added.rows_affected() > 0) {
         sqlx::query("INSERT INTO studies (sweep_id, plan) VALUES ($1, $2)")
-            .bind(id)
+            .bind(stored_id(id))
             .bind(plan)
             .execute(connection)
             .await?;
