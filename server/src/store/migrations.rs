@@ -31,8 +31,9 @@ pub(in crate::store) fn migrator_of(files: &[(&str, &'static str)]) -> Migrator 
     Migrator::with_migrations(files.iter().filter_map(migration).collect())
 }
 
-/// Version of the newest migration.
-pub(in crate::store) fn newest_version(migrator: &Migrator) -> i64 {
+/// Version of the newest file.
+pub(in crate::store) fn newest_version(files: &[(&str, &'static str)]) -> i64 {
+    let migrator = migrator_of(files);
     let versions = migrator.iter().map(|migration| migration.version);
     versions.max().unwrap_or_default()
 }

@@ -15,9 +15,10 @@ use crate::clock::Clock;
 use crate::export::files::parent;
 use crate::groups::Groups;
 use crate::store::leases::ENDED_BY_RESTORE;
+use crate::store::migrations::{migrator_of, newest_version};
 use crate::store::postgres::PostgresStore;
 use crate::store::postgres::durability;
-use crate::store::postgres::migrations::{migrator, newest_version};
+use crate::store::postgres::migrations::FILES;
 use crate::store::postgres::notifications::{hear, notify};
 use crate::store::process_state::ProcessState;
 use crate::store::{BackupError, Lease, Limits, StoreError};
@@ -128,7 +129,7 @@ pub(super) async fn open_to_verify(url: &str) -> Result<PgPool, BackupError> {
     check_version(&mut server).await?;
     let found = applied(&mut server).await?;
     server.close().await?;
-    let known = newest_version();
+    let known = newest_version(&FILES);
     match found {
         None => Err(BackupError::NoDatabase(path)),
         Some(found) if found < known => Err(BackupError::Older { path, found, known }),
@@ -213,8 +214,8 @@ async fn migrate(options: &PgConnectOptions) -> Result<(), StoreError> {
     refuse_standby(&mut server).await?;
     check_version(&mut server).await?;
     durability::warn(&mut server).await;
-    if applied(&mut server).await? != Some(newest_version()) {
-        migrator().run(&mut server).await?;
+    if applied(&mut server).await? != Some(newest_version(&FILES)) {
+        migrator_of(&FILES).run(&mut server).await?;
     }
     // The transactions of another cluster, from which the database was restored, had higher numbers. That of this statement is above all
     // that have ended in this one.

@@ -9,7 +9,8 @@ use sqlx::{ConnectOptions, Connection};
 
 use crate::store::StoreError;
 use crate::store::database_errors::is_no_database;
-use crate::store::sqlite::migrations::newest_version;
+use crate::store::migrations::newest_version;
+use crate::store::sqlite::migrations::FILES;
 
 /// `PRAGMA application_id` of the databases of this program: `frtw` in ASCII.
 const APPLICATION_ID: i32 = 0x6672_7477;
@@ -47,7 +48,7 @@ pub(super) async fn schema_version(path: &Path) -> Result<Option<i64>, StoreErro
         }
         Err(error) => return Err(error.into()),
     };
-    let known = newest_version();
+    let known = newest_version(&FILES);
     if version > known {
         return Err(StoreError::Newer {
             path: path.to_owned(),

@@ -1,11 +1,9 @@
 //! The migrations of the schema, embedded.
 
-use sqlx::migrate::Migrator;
-
-use crate::store::migrations::{self, file, migrator_of};
+use crate::store::migrations::file;
 
 /// All files of the folder; a name is the version and what it is about.
-const FILES: [(&str, &str); 37] = [
+pub(super) const FILES: [(&str, &str); 37] = [
     file!("sqlite/0001_jobs.sql"),
     file!("sqlite/0002_labels.sql"),
     file!("sqlite/0003_events.sql"),
@@ -44,16 +42,6 @@ const FILES: [(&str, &str); 37] = [
     file!("sqlite/0080_sent_specifications.sql"),
     file!("sqlite/0081_retained_batches.sql"),
 ];
-
-/// Applies the migrations that a database does not have; refuses a database with others.
-pub(super) fn migrator() -> Migrator {
-    migrator_of(&FILES)
-}
-
-/// Version of the newest one.
-pub(super) fn newest_version() -> i64 {
-    migrations::newest_version(&migrator())
-}
 
 #[cfg(test)]
 mod tests {

@@ -12,10 +12,11 @@ use sqlx::{ConnectOptions, Connection};
 use crate::clock::Clock;
 use crate::store::address::{is_postgres, shown_address};
 use crate::store::folder::beside;
+use crate::store::migrations::migrator_of;
 use crate::store::process_state::ProcessState;
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::lock::lock;
-use crate::store::sqlite::migrations::migrator;
+use crate::store::sqlite::migrations::FILES;
 use crate::store::sqlite::submissions::Submissions;
 use crate::store::sqlite::{identity, owner};
 use crate::store::{Limits, StoreError};
@@ -82,7 +83,7 @@ impl SqliteStore {
             // A start that is interrupted between two migrations leaves a database of this program.
             identity::mark(&writer).await?;
         }
-        migrator().run(&writer).await?;
+        migrator_of(&FILES).run(&writer).await?;
         identity::mark(&writer).await?;
         let owner = owner::become_owner(&writer, &path, last.as_ref()).await?;
         // There are no readers yet that it would have to wait for.

@@ -5,8 +5,9 @@ use sqlx::sqlite::SqlitePoolOptions;
 use crate::objects::Objects;
 use crate::store::folder::Folder;
 use crate::store::integrity::check::Verification;
+use crate::store::migrations::newest_version;
 use crate::store::sqlite::backup::{at, check_integrity, database_at};
-use crate::store::sqlite::migrations::newest_version;
+use crate::store::sqlite::migrations::FILES;
 use crate::store::sqlite::open::options;
 use crate::store::{BackupError, CopySummary, StoreError};
 
@@ -19,7 +20,7 @@ pub(in crate::store) async fn verify(
     objects: Option<&Objects>,
 ) -> Result<CopySummary, BackupError> {
     let path = options(url)?.get_filename().to_owned();
-    let (found, known) = (database_at(&path).await?, newest_version());
+    let (found, known) = (database_at(&path).await?, newest_version(&FILES));
     if found < known {
         return Err(BackupError::Older { path, found, known });
     }
