@@ -135,9 +135,8 @@ impl Service {
         app.workers.exchange(&store).await;
         tasks.start_upkeep(&app, &worker, config.keep_days, reclaimed);
         if moves_results {
-            tasks.start_mover();
+            tasks.start_one("objects", objects::move_results);
         }
-        tasks.start_batch_endings();
         tasks.start_queueing(&app, config.jobs_ahead);
         let router = http::router(app);
         let (mut listener, served) = (Some(listener), stopping.clone());

@@ -72,6 +72,12 @@ impl Supervisor {
         running.map(|(name, _)| *name).collect()
     }
 
+    /// Number of the workers that run.
+    pub fn running_workers(&self) -> usize {
+        let running = self.running();
+        running.iter().filter(|(kind, _)| *kind == WORKER).count()
+    }
+
     /// Runs a task until the service stops, and starts it again whenever it ends before.
     pub async fn run<F>(
         self: Arc<Self>,

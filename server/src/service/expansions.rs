@@ -54,24 +54,19 @@ pub(super) async fn queue_ahead(
     ahead: u64,
     stopping: CancellationToken,
 ) {
-    loop {
-        let round = async {
-            let pause = match round(&store, &machine, ahead).await {
-                Ok(Done::Queued) => return,
-                Ok(Done::Behind) => PAUSE_BEHIND,
-                Ok(Done::Nothing) => PAUSE,
-                Err(error) => {
-                    tracing::error!(%error, "the sweeps with jobs to be queued could not be read");
-                    PAUSE
-                }
-            };
-            tokio::time::sleep(pause).await;
+    let round = async || {
+        let pause = match round(&store, &machine, ahead).await {
+            Ok(Done::Queued) => return,
+            Ok(Done::Behind) => PAUSE_BEHIND,
+            Ok(Done::Nothing) => PAUSE,
+            Err(error) => {
+                tracing::error!(%error, "the sweeps with jobs to be queued could not be read");
+                PAUSE
+            }
         };
-        tokio::select! {
-            () = stopping.cancelled() => return,
-            () = round => {}
-        }
-    }
+        tokio::time::sleep(pause).await;
+    };
+    while stopping.run_until_cancelled(round()).await.is_some() {}
 }
 
 /// Queues jobs of each sweep of which fewer wait. One that fails holds up no others.

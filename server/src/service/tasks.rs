@@ -6,7 +6,7 @@ use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 
 use crate::http::App;
-use crate::service::{batch_endings, expansions, maintenance, objects, workers};
+use crate::service::{batch_endings, expansions, maintenance, workers};
 use crate::store::{Reclaimed, Store};
 use crate::supervision::{Supervisor, TaskName, WORKER};
 use crate::worker;
@@ -47,6 +47,20 @@ impl Tasks {
             .spawn(supervisor.run(name, metrics, stopping, start));
     }
 
+    /// Starts a task that there is once, with the store until the service stops.
+    pub(super) fn start_one<F>(
+        &mut self,
+        name: &'static str,
+        mut task: impl FnMut(Arc<Store>, CancellationToken) -> F + Send + 'static,
+    ) where
+        F: Future<Output = ()> + Send + 'static,
+    {
+        let (store, stopping) = (Arc::clone(&self.store), self.stopping.clone());
+        self.start((name, 0), move || {
+            task(Arc::clone(&store), stopping.clone())
+        });
+    }
+
     /// Starts the workers of this process; returns their health.
     pub(super) fn start_workers(
         &mut self,
@@ -60,7 +74,7 @@ impl Tasks {
             process
         });
         for number in 0..count {
-            let (store, stopping) = self.shared();
+            let (store, stopping) = (Arc::clone(&self.store), self.stopping.clone());
             let (process, config) = (Arc::clone(&process), Arc::clone(config));
             self.start((WORKER, number), move || {
                 let work = worker::work(
@@ -79,7 +93,8 @@ impl Tasks {
         Arc::clone(process.health())
     }
 
-    /// Starts what keeps the store in order: lost jobs, deadlines, old jobs, the ownership of a file, contacts with remote workers.
+    /// Starts what keeps the store in order: lost jobs, deadlines, old jobs, the ownership of a file, contacts with remote workers,
+    /// ends of jobs of large sweeps.
     /// `reclaimed` are the jobs that were reclaimed at the start.
     pub(super) fn start_upkeep(
         &mut self,
@@ -88,49 +103,24 @@ impl Tasks {
         keep_days: Option<u32>,
         reclaimed: Reclaimed,
     ) {
-        let mut reclaimed = Some(reclaimed);
-        let ((store, stopping), config) = (self.shared(), Arc::clone(config));
-        self.start(("maintenance", 0), move || {
-            let (store, config, stopping) =
-                (Arc::clone(&store), Arc::clone(&config), stopping.clone());
+        let (mut reclaimed, config) = (Some(reclaimed), Arc::clone(config));
+        self.start_one("maintenance", move |store, stopping| {
             let reclaimed = reclaimed.take().unwrap_or_default();
-            maintenance::maintain(store, config, keep_days, reclaimed, stopping)
+            maintenance::maintain(store, Arc::clone(&config), keep_days, reclaimed, stopping)
         });
-        let (store, stopping) = self.shared();
-        self.start(("heartbeat", 0), move || {
-            maintenance::beat(Arc::clone(&store), stopping.clone())
+        self.start_one("heartbeat", maintenance::beat);
+        let registry = Arc::clone(&app.workers);
+        self.start_one("workers", move |store, stopping| {
+            workers::note_workers(store, Arc::clone(&registry), stopping)
         });
-        let ((store, stopping), registry) = (self.shared(), Arc::clone(&app.workers));
-        self.start(("workers", 0), move || {
-            workers::note_workers(Arc::clone(&store), Arc::clone(&registry), stopping.clone())
-        });
-    }
-
-    /// Starts what moves results to the store of objects.
-    pub(super) fn start_mover(&mut self) {
-        let (store, stopping) = self.shared();
-        self.start(("objects", 0), move || {
-            objects::move_results(Arc::clone(&store), stopping.clone())
-        });
-    }
-
-    /// Starts what cancels and deletes the jobs of large sweeps.
-    pub(super) fn start_batch_endings(&mut self) {
-        let (store, stopping) = self.shared();
-        self.start(("batch endings", 0), move || {
-            batch_endings::end_jobs(Arc::clone(&store), stopping.clone())
-        });
+        self.start_one("batch endings", batch_endings::end_jobs);
     }
 
     /// Starts what queues the jobs of large sweeps, so many of each ahead of the workers.
     pub(super) fn start_queueing(&mut self, app: &App, ahead: u64) {
-        let ((store, stopping), machine) = (self.shared(), app.machine.clone());
-        self.start(("expansions", 0), move || {
-            expansions::queue_ahead(Arc::clone(&store), machine.clone(), ahead, stopping.clone())
+        let machine = app.machine.clone();
+        self.start_one("expansions", move |store, stopping| {
+            expansions::queue_ahead(store, machine.clone(), ahead, stopping)
         });
-    }
-
-    fn shared(&self) -> (Arc<Store>, CancellationToken) {
-        (Arc::clone(&self.store), self.stopping.clone())
     }
 }

@@ -7,7 +7,6 @@ use axum::extract::State;
 
 use crate::http::app::App;
 use crate::http::problem::ProblemResponse;
-use crate::supervision::WORKER;
 
 /// Workers in the process of the service, and remote processes with what they hold, of all services of the database.
 #[utoipa::path(
@@ -17,8 +16,7 @@ use crate::supervision::WORKER;
     responses((status = 200, description = "The workers", body = WorkerList))
 )]
 pub(crate) async fn workers(State(app): State<App>) -> Result<Json<WorkerList>, ProblemResponse> {
-    let running = app.supervisor.running();
-    let total = running.iter().filter(|(kind, _)| *kind == WORKER).count();
+    let total = app.supervisor.running_workers();
     app.workers.note_shown(&app.store).await;
     Ok(Json(WorkerList {
         local: Workers {

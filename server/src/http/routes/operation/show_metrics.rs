@@ -7,7 +7,6 @@ use axum::response::{IntoResponse, Response};
 
 use crate::http::app::App;
 use crate::http::problem::ProblemResponse;
-use crate::supervision::WORKER;
 
 /// Media type of the OpenMetrics text format.
 const MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
@@ -24,8 +23,7 @@ const MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=u
 )]
 pub(crate) async fn metrics(State(app): State<App>) -> Result<Response, ProblemResponse> {
     let mut gauges = app.store.gauges().await?;
-    let running = app.supervisor.running();
-    let workers = running.iter().filter(|(kind, _)| *kind == WORKER).count();
+    let workers = app.supervisor.running_workers();
     gauges.workers_alive = i64::try_from(workers).unwrap_or(i64::MAX);
     gauges.workers_failing += i64::from(app.health.failing().is_some());
     // Only here: it is a sum over all waiting jobs, and other gauges are polled.

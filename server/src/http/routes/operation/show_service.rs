@@ -8,7 +8,6 @@ use api::job::Status;
 
 use crate::http::app::App;
 use crate::http::problem::ProblemResponse;
-use crate::supervision::WORKER;
 
 /// Jobs by status, workers, age of the oldest waiting job, space.
 #[utoipa::path(
@@ -21,8 +20,7 @@ pub(crate) async fn service(
     State(app): State<App>,
 ) -> Result<Json<ServiceOverview>, ProblemResponse> {
     let gauges = app.store.gauges().await?;
-    let running = app.supervisor.running();
-    let total = running.iter().filter(|(kind, _)| *kind == WORKER).count();
+    let total = app.supervisor.running_workers();
     let of = |status: Status| gauges.jobs.iter().find(|(of, ..)| *of == status);
     let count = |status| of(status).map_or(0, |(_, count, _)| u64::try_from(*count).unwrap_or(0));
     let waiting = of(Status::Queued).filter(|(_, count, _)| *count > 0);
