@@ -12,43 +12,33 @@ use uuid::Uuid;
 use crate::batch::Kind;
 use crate::http::problem::{ProblemResponse, ProblemType};
 
-/// Id of a job, from the path.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct JobId(pub(super) Uuid);
+/// Defines an id from the path: of what, and the problem of an unknown one.
+macro_rules! path_ids {
+    ($($(#[$doc:meta])* $name:ident, $noun:literal, $missing:ident;)+) => {$(
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy)]
+        pub(super) struct $name(pub(super) Uuid);
 
-impl<S: Send + Sync> FromRequestParts<S> for JobId {
-    type Rejection = ProblemResponse;
+        impl<S: Send + Sync> FromRequestParts<S> for $name {
+            type Rejection = ProblemResponse;
 
-    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ProblemResponse> {
-        let id = path_id(parts, state, "job", ProblemType::NO_SUCH_JOB).await?;
-        Ok(Self(id))
-    }
+            async fn from_request_parts(
+                parts: &mut Parts,
+                state: &S,
+            ) -> Result<Self, ProblemResponse> {
+                Ok(Self(path_id(parts, state, $noun, ProblemType::$missing).await?))
+            }
+        }
+    )+};
 }
 
-/// Id of a token of workers, from the path.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct WorkerTokenId(pub(super) Uuid);
-
-impl<S: Send + Sync> FromRequestParts<S> for WorkerTokenId {
-    type Rejection = ProblemResponse;
-
-    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ProblemResponse> {
-        let id = path_id(parts, state, "token", ProblemType::NO_SUCH_TOKEN).await?;
-        Ok(Self(id))
-    }
-}
-
-/// Id of a remote worker, from the path.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct WorkerId(pub(super) Uuid);
-
-impl<S: Send + Sync> FromRequestParts<S> for WorkerId {
-    type Rejection = ProblemResponse;
-
-    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, ProblemResponse> {
-        let id = path_id(parts, state, "worker", ProblemType::NO_SUCH_WORKER).await?;
-        Ok(Self(id))
-    }
+path_ids! {
+    /// Id of a job, from the path.
+    JobId, "job", NO_SUCH_JOB;
+    /// Id of a token of workers, from the path.
+    WorkerTokenId, "token", NO_SUCH_TOKEN;
+    /// Id of a remote worker, from the path.
+    WorkerId, "worker", NO_SUCH_WORKER;
 }
 
 /// A batch, from the path: its kind is that of the collection.

@@ -10,6 +10,8 @@ use crate::http::problem::ProblemResponse;
 use crate::http::routes::batches::error::BatchError;
 use crate::store::{BatchEnding, Deleted};
 
+type Removed = Result<StatusCode, ProblemResponse>;
+
 /// Deletes a sweep whose jobs have all ended, with the jobs, their events and results: those of more than a thousand jobs after the answer.
 #[utoipa::path(
     delete,
@@ -20,10 +22,7 @@ use crate::store::{BatchEnding, Deleted};
         (status = 409, description = "A job of it has not ended", body = Problem),
     )
 )]
-pub(crate) async fn remove_sweep(
-    app: State<App>,
-    batch: BatchId,
-) -> Result<StatusCode, ProblemResponse> {
+pub(crate) async fn remove_sweep(app: State<App>, batch: BatchId) -> Removed {
     remove(&app, batch).await
 }
 
@@ -37,14 +36,11 @@ pub(crate) async fn remove_sweep(
         (status = 409, description = "A job of it has not ended", body = Problem),
     )
 )]
-pub(crate) async fn remove_study(
-    app: State<App>,
-    batch: BatchId,
-) -> Result<StatusCode, ProblemResponse> {
+pub(crate) async fn remove_study(app: State<App>, batch: BatchId) -> Removed {
     remove(&app, batch).await
 }
 
-async fn remove(app: &App, batch: BatchId) -> Result<StatusCode, ProblemResponse> {
+async fn remove(app: &App, batch: BatchId) -> Removed {
     app.require_batch(batch).await?;
     match app.store.note_deletion(batch.id).await? {
         Deleted::Done => {

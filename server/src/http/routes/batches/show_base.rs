@@ -11,6 +11,8 @@ use crate::http::routes::jobs::show_spec::SentSpec;
 use crate::store::BatchDetail;
 use crate::store::BatchPart;
 
+type Base = Result<SentSpec, ProblemResponse>;
+
 /// The base specification of a sweep as it was sent.
 #[utoipa::path(
     get,
@@ -22,10 +24,7 @@ use crate::store::BatchPart;
         )),
     )
 )]
-pub(crate) async fn show_sweep_base(
-    app: State<App>,
-    batch: BatchId,
-) -> Result<SentSpec, ProblemResponse> {
+pub(crate) async fn show_sweep_base(app: State<App>, batch: BatchId) -> Base {
     base(&app, batch).await
 }
 
@@ -40,14 +39,11 @@ pub(crate) async fn show_sweep_base(
         )),
     )
 )]
-pub(crate) async fn show_study_base(
-    app: State<App>,
-    batch: BatchId,
-) -> Result<SentSpec, ProblemResponse> {
+pub(crate) async fn show_study_base(app: State<App>, batch: BatchId) -> Base {
     base(&app, batch).await
 }
 
-async fn base(app: &App, batch: BatchId) -> Result<SentSpec, ProblemResponse> {
+async fn base(app: &App, batch: BatchId) -> Base {
     app.require_batch(batch).await?;
     if let Some(sent) = app.store.sent_base(batch.id).await? {
         return Ok(SentSpec::sent(sent));

@@ -21,35 +21,26 @@ use crate::http::problem::{ProblemResponse, ProblemType, RouteError};
 use crate::http::routes::results::max_points;
 use crate::store::SnapshotPart;
 
-/// Error of a section that a job does not have.
+/// Error of a part that a job does not have.
 #[derive(Debug, thiserror::Error)]
-#[error("job {id} has {stations} sections along a line at cycle {cycle}, no number {station}")]
-struct NoStationError {
-    id: Uuid,
-    cycle: u64,
-    stations: usize,
-    station: u32,
+enum SnapshotError {
+    /// The job has no such section.
+    #[error("job {id} has {stations} sections along a line at cycle {cycle}, no number {station}")]
+    NoStation {
+        id: Uuid,
+        cycle: u64,
+        stations: usize,
+        station: u32,
+    },
+    /// Sections have no loop.
+    #[error("the friction loop is that of the whole line; sections have a profile and a pressure")]
+    WholeLine,
+    /// The job has no stored snapshot.
+    #[error("job {0} has no stored snapshot so far")]
+    NoSnapshot(Uuid),
 }
 
-impl RouteError for NoStationError {
-    const TYPE: ProblemType = ProblemType::NO_SUCH_RESULT;
-}
-
-/// Error of a section's loop.
-#[derive(Debug, thiserror::Error)]
-#[error("the friction loop is that of the whole line; sections have a profile and a pressure")]
-struct WholeLineError;
-
-impl RouteError for WholeLineError {
-    const TYPE: ProblemType = ProblemType::NO_SUCH_RESULT;
-}
-
-/// Error of a job without a stored snapshot.
-#[derive(Debug, thiserror::Error)]
-#[error("job {0} has no stored snapshot so far")]
-struct NoSnapshotError(Uuid);
-
-impl RouteError for NoSnapshotError {
+impl RouteError for SnapshotError {
     const TYPE: ProblemType = ProblemType::NO_SUCH_RESULT;
 }
 
@@ -185,11 +176,11 @@ async fn read_part<T: DeserializeOwned + Serialize>(
     max_points::check(query.max_points)?;
     if query.station.is_some() && read.of_station.is_none() {
         app.job(id).await?;
-        return Err(WholeLineError.into());
+        return Err(SnapshotError::WholeLine.into());
     }
     let Some(json) = app.store.snapshot(id, read.part, query.cycle).await? else {
         app.job(id).await?;
-        return Err(NoSnapshotError(id).into());
+        return Err(SnapshotError::NoSnapshot(id).into());
     };
     let of_station = query.station.zip(read.of_station);
     if (query.format, query.max_points, of_station) == (Format::Json, None, None) {
@@ -227,7 +218,7 @@ async fn section(
     cycle: u64,
     station: u32,
 ) -> Result<LineProfile, ProblemResponse> {
-    let missing = |stations| NoStationError {
+    let missing = |stations| SnapshotError::NoStation {
         id,
         cycle,
         stations,
