@@ -1,6 +1,6 @@
 //! The contact as an electrical conductor: force, resistivities, hardnesses, spots and films.
 
-use api::spec::{CriterionKind, EnumValue, Material, Model, Spec, Spots, Switch};
+use api::spec::{CriterionKind, EnumValue, Model, Spec, Spots, Switch};
 use solver::law::elastic::contact_modulus;
 use solver::law::plating::bottoms;
 use solver::law::softening::REFERENCE_C;
@@ -55,7 +55,7 @@ pub(super) fn resolve(numerics: &Numerics<'_>, diagnostics: &mut Diagnostics) ->
         let metals = metals.map(|(number, ((name, material, law), bottom_mm))| {
             // The hardness matters for the resistance, even of a metal that does not wear.
             let hardness = environment::hardness_mpa(temperature, material, law);
-            let resistivity = resistivity(material);
+            let resistivity = environment::properties(material).and_then(|of| of.resistivity_ohm_m);
             if resistivity.is_none() {
                 lacks.push(format!("`{name}.resistivity_ohm_m`"));
                 unknown.get_or_insert(MissingProperty::Resistivity);
@@ -125,13 +125,6 @@ fn is_requested(filled: &Spec) -> bool {
         || !filled.interface.films.is_empty()
         || criteria.any(|criterion| is_resistance(&criterion.kind))
         || stops.any(is_resistance)
-}
-
-fn resistivity(material: Option<&Material>) -> Option<f64> {
-    match material {
-        Some(Material::Given(properties)) => properties.resistivity_ohm_m,
-        _ => None,
-    }
 }
 
 #[cfg(test)]

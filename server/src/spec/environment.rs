@@ -99,7 +99,8 @@ fn wears_by_hardness(law: &WearLaw) -> bool {
         .is_none_or(|law| definition(law).takes_hardness())
 }
 
-fn properties(material: Option<&Material>) -> Option<&MaterialProperties> {
+/// The properties of a material that is resolved.
+pub(super) fn properties(material: Option<&Material>) -> Option<&MaterialProperties> {
     match material {
         Some(Material::Given(properties)) => Some(properties),
         _ => None,

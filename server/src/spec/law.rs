@@ -33,7 +33,7 @@ use solver::sides::{Side, Sides};
 
 use crate::spec::diagnostics::Diagnostics;
 use crate::spec::materials::{by_side, name};
-use crate::spec::plating_choice::PlatingChoice;
+use crate::spec::plating_choice::{PlatingChoice, wear_of};
 use crate::spec::sourced::{Sourced, assumed, source};
 use crate::spec::system::{ArchardPreset, Preset};
 pub use definition::{Absent, ByFriction, LawDefinition, Number, Scaling, State};
@@ -109,10 +109,7 @@ pub(crate) fn resolve(
     let (friction, friction_law) = friction(given, materials, defaults, diagnostics);
     let coefficient = friction_law.unworn();
     let wear = Sides::from_fn(|at| {
-        let law = match at {
-            Side::Slider => given.wear.slider.as_ref(),
-            Side::Receptacle => given.wear.receptacle.as_ref(),
-        };
+        let law = wear_of(spec, at);
         let metal = Material::Named(preset.materials.of(at).value.to_owned());
         // The base of a preset that is plated is a metal as any other that is named.
         let is_plated =

@@ -58,7 +58,7 @@ fn is_unworn(spec: &Spec, side: Side) -> bool {
 }
 
 /// The wear law that a specification gives a side.
-fn wear_of(spec: &Spec, side: Side) -> Option<&Option<WearLaw>> {
+pub(super) fn wear_of(spec: &Spec, side: Side) -> Option<&Option<WearLaw>> {
     let wear = &spec.interface.wear;
     match side {
         Side::Slider => wear.slider.as_ref(),

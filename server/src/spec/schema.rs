@@ -8,6 +8,7 @@ use solver::scene::MOST_LAYERS;
 
 use crate::reference::materials::LibraryMaterial;
 use crate::spec::diagnostics::NAME_LIMIT;
+use crate::spec::law::friction_table::COEFFICIENT_RANGE;
 use crate::spec::law::{self, friction_table};
 use crate::spec::motion::{fourier, insertion, thermal_cycle, vibration};
 use crate::spec::{
@@ -84,17 +85,9 @@ fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
         ("Environment", "temperature_c", environment::TEMPERATURE_C),
         ("Environment", "current_a", environment::CURRENT_A),
         ("Environment", "frequency_hz", environment::FREQUENCY_HZ),
-        ("Friction", "coefficient", friction_table::COEFFICIENT_RANGE),
-        (
-            "FrictionAtCycle",
-            "coefficient",
-            friction_table::COEFFICIENT_RANGE,
-        ),
-        (
-            "FrictionAtDose",
-            "coefficient",
-            friction_table::COEFFICIENT_RANGE,
-        ),
+        ("Friction", "coefficient", COEFFICIENT_RANGE),
+        ("FrictionAtCycle", "coefficient", COEFFICIENT_RANGE),
+        ("FrictionAtDose", "coefficient", COEFFICIENT_RANGE),
         ("FrictionAtDose", "dose_mpa_mm", friction_table::DOSE_MPA_MM),
         ("Spots", "cluster_diameter_mm", spots::CLUSTER_DIAMETER_MM),
         ("Spots", "asperity_radius_mm", spots::ASPERITY_RADIUS_MM),
@@ -107,11 +100,7 @@ fn numbers() -> Vec<(&'static str, &'static str, RangeInclusive<f64>)> {
         ("Film", "growth_time_h", films::GROWTH_TIME_H),
         ("PlatingLayer", "thickness_um", plating::THICKNESS_UM),
         ("PlatingLayer", "thickness_mm", plating::THICKNESS_MM),
-        (
-            "PlatingLayer",
-            "friction_coefficient",
-            friction_table::COEFFICIENT_RANGE,
-        ),
+        ("PlatingLayer", "friction_coefficient", COEFFICIENT_RANGE),
         ("LifeSettings", "coefficient_of_variation", life::VARIATION),
         ("Criterion", "fraction", criterion::FRACTION),
         ("Criterion", "mm", criterion::WORN_DEPTH_MM),
@@ -138,20 +127,21 @@ fn others() -> Vec<(&'static str, &'static str, Value)> {
         "propertyNames": text,
         "additionalProperties": {"type": "string", "maxLength": LABEL_TEXT_LIMIT}
     });
+    let name = json!({"maxLength": NAME_LIMIT});
     vec![
-        ("Spec", "name", json!({"maxLength": NAME_LIMIT})),
+        ("Spec", "name", name.clone()),
         ("Spec", "labels", labels),
         ("Spec", "cycles", cycles.clone()),
         ("MissionBlock", "cycles", cycles),
-        ("MissionBlock", "name", json!({"maxLength": NAME_LIMIT})),
-        ("Spec", "mission", json!({"maxItems": mission::BLOCK_LIMIT})),
+        ("MissionBlock", "name", name.clone()),
+        ("Spec", "mission", entries(mission::BLOCK_LIMIT)),
         ("Spec", "repeat", counts(&mission::REPEAT)),
-        ("Spec", "stop", json!({"maxItems": stop::STOP_LIMIT})),
+        ("Spec", "stop", entries(stop::STOP_LIMIT)),
         ("LifeSettings", "contacts", counts(&life::CONTACTS)),
         ("Spots", "count", counts(&spots::COUNT)),
-        ("Interface", "films", json!({"maxItems": films::FILM_LIMIT})),
+        ("Interface", "films", entries(films::FILM_LIMIT)),
         ("Motion", "contacts", counts(&vibration::CONTACTS)),
-        ("Motion", "terms", json!({"maxItems": fourier::TERM_LIMIT})),
+        ("Motion", "terms", entries(fourier::TERM_LIMIT)),
         ("FourierTerm", "order", counts(&fourier::ORDER)),
         ("FrictionAtCycle", "cycle", counts(&friction_table::CYCLE)),
         ("Friction", "by_cycle", points.clone()),
@@ -161,13 +151,9 @@ fn others() -> Vec<(&'static str, &'static str, Value)> {
             "psd",
             json!({"minItems": 2, "maxItems": vibration::MOST_POINTS}),
         ),
-        (
-            "LifeSettings",
-            "criteria",
-            json!({"maxItems": life::CRITERION_LIMIT}),
-        ),
-        ("Platings", "slider", json!({"maxItems": MOST_LAYERS})),
-        ("Platings", "receptacle", json!({"maxItems": MOST_LAYERS})),
+        ("LifeSettings", "criteria", entries(life::CRITERION_LIMIT)),
+        ("Platings", "slider", entries(MOST_LAYERS)),
+        ("Platings", "receptacle", entries(MOST_LAYERS)),
         (
             "Spec",
             "effects",
@@ -189,26 +175,18 @@ fn others() -> Vec<(&'static str, &'static str, Value)> {
             "contact_element_mm",
             json!({"exclusiveMinimum": 0}),
         ),
-        (
-            "Output",
-            "stations_mm",
-            json!({"maxItems": output::STATION_LIMIT}),
-        ),
+        ("Output", "stations_mm", entries(output::STATION_LIMIT)),
         (
             "Output",
             "snapshots_at_cycles",
-            json!({"maxItems": output::SNAPSHOT_LIMIT}),
+            entries(output::SNAPSHOT_LIMIT),
         ),
         (
             "Output",
             "snapshots_at_distance_mm",
             json!({"maxItems": output::SNAPSHOT_LIMIT, "items": {"type": "number", "format": "double", "minimum": 0}}),
         ),
-        (
-            "MaterialProperties",
-            "name",
-            json!({"maxLength": NAME_LIMIT}),
-        ),
+        ("MaterialProperties", "name", name),
     ]
 }
 
@@ -219,6 +197,11 @@ pub(crate) fn material_names() -> Vec<&'static str> {
 
 fn within(range: &RangeInclusive<f64>) -> Value {
     json!({"minimum": range.start(), "maximum": range.end()})
+}
+
+/// A list of so many entries at most.
+fn entries(most: usize) -> Value {
+    json!({"maxItems": most})
 }
 
 fn counts(range: &RangeInclusive<u64>) -> Value {
