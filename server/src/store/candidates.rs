@@ -9,6 +9,9 @@ use crate::queue::WaitingJob;
 use crate::store::StoreError;
 use crate::store::rows::StoredRow;
 
+/// Number of waiting jobs among which those that fit are searched, beside one for each slot.
+pub(in crate::store) const CANDIDATES: usize = 64;
+
 /// How long a job that its worker has lost or declined is left to others, where there are any. Arbitrary: longer than an idle worker takes to
 /// find it.
 const LEFT_FOR: Duration = Duration::from_secs(30);

@@ -10,16 +10,14 @@ use uuid::Uuid;
 use crate::clock::Now;
 use crate::groups::Pending;
 use crate::queue::admit;
-use crate::store::candidates::Candidate;
+use crate::store::candidates::{CANDIDATES, Candidate};
 use crate::store::postgres::claimed::Claimed;
 use crate::store::postgres::sql::checkpoints;
+use crate::store::postgres::sql::workers::able_workers;
 use crate::store::postgres::{LONGEST_TURN, PostgresStore, begin, time_of};
 use crate::store::rows::{StoredRow, attempt_event, claim, integer};
-use crate::store::workers::present_from;
 use crate::store::{Claim, ClaimRequest, ClaimedCheckpoint, Lease, StoreError};
 
-/// Number of waiting jobs among which those that fit are searched, beside one for each slot.
-const CANDIDATES: usize = 64;
 /// Key of the lock of the process that claims: `frtc` in ASCII.
 const TURN: i64 = 0x6672_7463;
 /// Allows or forbids PostgreSQL to sort all jobs instead of reading the first ones from an index. With statistics of a time when few jobs
@@ -161,15 +159,6 @@ async fn candidates(
     rows.iter().map(Candidate::read).collect()
 }
 
-/// Remote workers that are there and start solves.
-async fn able_workers(connection: &mut PgConnection, now: Now) -> Result<Vec<Uuid>, StoreError> {
-    let ids = sqlx::query_scalar(
-        "SELECT id FROM workers WHERE last_contact_at >= $1 AND NOT is_draining AND failing IS NULL",
-    )
-    .bind(present_from(now.monotonic_ms));
-    Ok(ids.fetch_all(connection).await?)
-}
-
 /// Takes the jobs out of those that wait which a worker can take, and which are not left to others that are there; notes why it does not
 /// take others.
 fn admit_for(
@@ -259,6 +248,11 @@ async fn claimed_before(
     Ok(claims)
 }
 
+/// A value of each request.
+fn each<T>(requests: &[ClaimRequest], value: impl Fn(&ClaimRequest) -> T) -> Vec<T> {
+    requests.iter().map(value).collect()
+}
+
 /// Claims admitted jobs, each for the request of an index; those that another transaction has locked or changed are left out.
 async fn claim_admitted(
     connection: &mut PgConnection,
@@ -270,24 +264,7 @@ async fn claim_admitted(
         return Ok(Vec::new());
     }
     let ids: Vec<_> = admitted.iter().map(|(id, _)| *id).collect();
-    let of = |index: &usize| &requests[*index];
-    let workers: Vec<_> = admitted
-        .iter()
-        .map(|(_, index)| of(index).request.worker)
-        .collect();
-    let numbers: Vec<_> = admitted
-        .iter()
-        .map(|(_, index)| of(index).request.number)
-        .collect();
-    let ends: Vec<_> = admitted
-        .iter()
-        .map(|(_, index)| now.end_of(of(index).lease))
-        .collect();
-    let remote: Vec<_> = admitted
-        .iter()
-        .map(|(_, index)| of(index).is_remote)
-        .collect();
-    let tokens: Vec<_> = admitted.iter().map(|(_, index)| of(index).token).collect();
+    let given: Vec<_> = admitted.iter().map(|(_, index)| requests[*index]).collect();
     let step = Lease::step();
     let rows = sqlx::query(
         "WITH free AS (SELECT id FROM jobs WHERE id = ANY($1) AND status = 'queued' FOR UPDATE SKIP LOCKED) \
@@ -299,12 +276,12 @@ async fn claim_admitted(
          RETURNING n, jobs.id, lease, spec, last_event, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
     )
     .bind(ids)
-    .bind(workers)
-    .bind(numbers)
-    .bind(ends)
-    .bind(remote)
+    .bind(each(&given, |request| request.request.worker))
+    .bind(each(&given, |request| request.request.number))
+    .bind(each(&given, |request| now.end_of(request.lease)))
+    .bind(each(&given, |request| request.is_remote))
     .bind(now.system_ms)
-    .bind(tokens)
+    .bind(each(&given, |request| request.token))
     .bind(step)
     .fetch_all(&mut *connection)
     .await?;

@@ -44,6 +44,8 @@ pub(super) const FOR_UPDATE: &str = " FOR UPDATE";
 pub(super) const SKIP_LOCKED: &str = " FOR UPDATE SKIP LOCKED";
 /// The object of a row of `result_files`.
 pub(super) const FILE_OBJECT: &str = "object";
+/// Condition of a row of `result_blocks` whose results can be moved.
+pub(super) const IS_MOVABLE: &str = "is_movable";
 
 // The planner finds the indexes by itself.
 pub(super) const BY_CLAIM: &str = "";

@@ -1,11 +1,9 @@
-//! Gauges for `/metrics`, and the write probe.
-
-use std::time::Instant;
+//! Gauges for `/metrics`.
 
 use crate::clock::Now;
 use crate::metrics::Gauges;
 use crate::store::StoreError;
-use crate::store::gauges::{PROBE_INTERVAL, StatusRow, by_status, progress_age_s, seconds};
+use crate::store::gauges::{StatusRow, by_status, progress_age_s, seconds};
 use crate::store::postgres::PostgresStore;
 use crate::store::rows::integer;
 use crate::store::workers::present_from;
@@ -59,21 +57,5 @@ impl PostgresStore {
             workers_failing,
             demand_cpu_s: 0,
         })
-    }
-
-    pub(in crate::store) async fn ready(&self) -> Result<(), StoreError> {
-        self.process.disk.check()?;
-        let mut last = self.last_probe.lock().await;
-        if last.is_some_and(|at| at.elapsed() < PROBE_INTERVAL) {
-            return Ok(());
-        }
-        sqlx::query(
-            "INSERT INTO probes (name, written_at) VALUES ('ready', fretwear_now()) \
-             ON CONFLICT (name) DO UPDATE SET written_at = excluded.written_at",
-        )
-        .execute(&self.writer)
-        .await?;
-        *last = Some(Instant::now());
-        Ok(())
     }
 }

@@ -2,7 +2,6 @@
 
 use sqlx::Connection;
 use sqlx::postgres::PgConnection;
-use uuid::Uuid;
 
 use crate::store::StoreError;
 use crate::store::checkpoint_object::REMOVED_AFTER_MS;
@@ -87,19 +86,6 @@ impl PostgresStore {
             .await?;
         *mover = Some((connection, is_mover));
         Ok(is_mover)
-    }
-
-    pub(in crate::store) async fn movable_jobs(
-        &self,
-        after: Uuid,
-        most: i64,
-    ) -> Result<Vec<Uuid>, StoreError> {
-        let jobs = sqlx::query_scalar(
-            "SELECT job_id FROM result_blocks WHERE is_movable AND object IS NULL AND job_id > $1 ORDER BY job_id LIMIT $2",
-        )
-        .bind(after)
-        .bind(most);
-        Ok(jobs.fetch_all(&self.writer).await?)
     }
 
     pub(in crate::store) async fn note_unnamed(&self, keys: &[String]) -> Result<(), StoreError> {

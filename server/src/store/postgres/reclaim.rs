@@ -2,18 +2,14 @@
 
 use std::time::{Duration, Instant};
 
-use api::job::Status;
-use uuid::Uuid;
+use sqlx::AssertSqlSafe;
 
 use crate::clock::Now;
-use crate::store::ending::EndingJob;
-use crate::store::leases;
 use crate::store::postgres::PostgresStore;
 use crate::store::postgres::compared::Compared;
-use crate::store::postgres::transitions::end_job;
-use crate::store::rows;
+use crate::store::postgres::sql::lost_jobs::LOST;
 use crate::store::rows::integer;
-use crate::store::{Lease, Reclaimed, StoreError};
+use crate::store::{Reclaimed, StoreError};
 
 const REASON: &str = "its worker was lost";
 
@@ -34,48 +30,15 @@ impl PostgresStore {
             None => integer(asked.elapsed().as_millis()),
         };
         let ended_by = now.monotonic_ms - waited_ms;
-        let lost: Vec<(Uuid, i64, bool, i64)> = sqlx::query_as(
-            "SELECT id, fruitless, cancel_requested, lease_expires_at FROM jobs WHERE status = 'running' AND lease_expires_at <= $1 \
-             ORDER BY id FOR UPDATE SKIP LOCKED",
-        )
-        .bind(ended_by)
-        .fetch_all(&mut *transaction)
-        .await?;
-        let (mut queued, mut ending) = (Vec::new(), Vec::new());
-        for (id, fruitless, cancel_requested, ended_at) in lost {
-            let end = leases::reclaim(ended_at, REASON);
-            let fruitless = fruitless.try_into().unwrap_or_default();
-            let limit = self.process.attempt_limit;
-            let job = EndingJob::running(id, fruitless, limit, cancel_requested);
-            if job.after(end.transition).is_some_and(Status::is_terminal) {
-                // Nothing is solved under the new lease, which this process holds.
-                let row = sqlx::query(
-                    "UPDATE jobs SET lease = lease + $3, lease_expires_at = $1, last_write = 0, worker = NULL, claim_number = NULL, lease_token = NULL, \
-                     is_remote = false WHERE id = $2 RETURNING lease, spec, attempts, queued_at, deadline_at, memory_mb, cpu_ms",
-                )
-                .bind(now.end_of(length))
-                .bind(id)
-                .bind(Lease::step())
-                .fetch_one(&mut *transaction)
-                .await?;
-                ending.push(rows::claim(id, &row, now, None)?);
-            } else {
-                let status = end_job(&mut transaction, &job, &end, now).await?;
-                queued.push((id, status));
-            }
-        }
-        transaction.commit().await?;
-        for (id, status) in &queued {
-            self.process.ended_by_worker(*id, *status);
-        }
-        for _ in 0..queued.len() + ending.len() {
-            self.process.metrics.reclaimed.inc();
-        }
-        Ok(Reclaimed {
-            queued: queued.len(),
-            ending,
-            reason: REASON,
-        })
+        let statement = format!(
+            "{LOST} WHERE status = 'running' AND lease_expires_at <= $1 ORDER BY id FOR UPDATE SKIP LOCKED"
+        );
+        let lost = sqlx::query(AssertSqlSafe(statement))
+            .bind(ended_by)
+            .fetch_all(&mut *transaction)
+            .await?;
+        self.reclaim_lost(transaction, lost, now, length, REASON)
+            .await
     }
 
     /// Returns `true` if the clock of the database has made no recent step against that of this process.

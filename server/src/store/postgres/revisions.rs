@@ -4,10 +4,8 @@
 use sqlx::postgres::PgRow;
 use sqlx::{Postgres, QueryBuilder};
 
-use crate::store::overview::overview;
 use crate::store::postgres::PostgresStore;
 use crate::store::postgres::sql::selects::select_overview;
-use crate::store::postgres::upkeep::KEPT_REVISIONS;
 use crate::store::rows::StoredRow;
 use crate::store::{Changed, StoreError};
 
@@ -18,11 +16,6 @@ impl PostgresStore {
     pub(in crate::store) async fn last_revision(&self) -> Result<i64, StoreError> {
         let last = sqlx::query_scalar("SELECT fretwear_last_revision()");
         Ok(last.fetch_one(&self.readers).await?)
-    }
-
-    pub(in crate::store) async fn knows_revision(&self, revision: i64) -> Result<bool, StoreError> {
-        let last = self.last_revision().await?;
-        Ok((last.saturating_sub(KEPT_REVISIONS)..=last).contains(&revision))
     }
 
     pub(in crate::store) async fn changed_after(
@@ -48,16 +41,8 @@ impl PostgresStore {
             .into_iter()
             .min()
             .unwrap_or(last);
-        let mut changes = Vec::with_capacity(rows.len() + deleted.len());
-        for row in &rows {
-            let job = Changed::Job(Box::new(overview(&self.process, row)?));
-            changes.push((row.value("revision")?, job));
-        }
-        for row in &deleted {
-            changes.push((row.value("revision")?, Changed::Deleted(row.id("id")?)));
-        }
+        let mut changes = self.changes_of(&rows, &deleted)?;
         changes.retain(|(revision, _)| *revision <= end);
-        changes.sort_by_key(|(revision, _)| *revision);
         Ok(changes)
     }
 }

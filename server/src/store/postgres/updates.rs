@@ -9,6 +9,7 @@ use crate::clock::Now;
 use crate::store::postgres::new_files::insert_files;
 use crate::store::postgres::queries::{NewEvent, insert_events};
 use crate::store::postgres::sql::checkpoints;
+use crate::store::postgres::sql::results::insert_snapshots;
 use crate::store::rows::integer;
 use crate::store::{JobUpdate, Lease, StoreError};
 
@@ -31,20 +32,7 @@ pub(super) async fn insert_results(
 ) -> Result<(), StoreError> {
     insert_rows(connection, updates).await?;
     for (lease, update) in updates {
-        for snapshot in &update.snapshots {
-            sqlx::query(
-                "INSERT INTO snapshots (job_id, cycle, profile, pressure, friction_loop) VALUES ($1, $2, $3, $4, $5) \
-                 ON CONFLICT (job_id, cycle) DO UPDATE SET profile = excluded.profile, pressure = excluded.pressure, \
-                 friction_loop = excluded.friction_loop",
-            )
-            .bind(lease.job)
-            .bind(integer(snapshot.profile.cycle))
-            .bind(serde_json::to_string(&snapshot.profile)?)
-            .bind(serde_json::to_string(&snapshot.pressure)?)
-            .bind(serde_json::to_string(&snapshot.friction_loop)?)
-            .execute(&mut *connection)
-            .await?;
-        }
+        insert_snapshots(connection, lease.job, &update.snapshots).await?;
         insert_files(connection, *lease, &update.files).await?;
         if let Some(checkpoint) = &update.checkpoint {
             let object = update.checkpoint_object.as_deref();

@@ -2,9 +2,7 @@
 
 use crate::store::StoreError;
 use crate::store::postgres::PostgresStore;
-
-/// Revisions whose deletions are kept.
-pub(super) const KEPT_REVISIONS: i64 = 1_000_000;
+use crate::store::postgres::sql::revisions::KEPT_REVISIONS;
 
 impl PostgresStore {
     /// The server keeps its own log; what is removed here are old notes of deletions.

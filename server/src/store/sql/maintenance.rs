@@ -1,6 +1,6 @@
-//! Maintenance: deadlines of queued jobs, retention of ended ones.
+//! Maintenance: deadlines of queued jobs, retention of ended ones, the write probe.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use api::job::{Outcome, Status};
 use sqlx::AssertSqlSafe;
@@ -10,6 +10,7 @@ use super::dialect::{BY_DEADLINE, EngineStore, GREATEST, LEAST, SKIP_LOCKED, Sto
 use super::transitions::end_job;
 use crate::queue::Transition;
 use crate::store::ending::EndingJob;
+use crate::store::gauges::PROBE_INTERVAL;
 use crate::store::limits::LONGEST_COUNTED_MS;
 use crate::store::rows::integer;
 use crate::store::{End, StoreError};
@@ -41,6 +42,25 @@ impl EngineStore {
             self.process.concluded(*id, Some(Status::Failed));
         }
         Ok(late.len())
+    }
+
+    pub(in crate::store) async fn ready(&self) -> Result<(), StoreError> {
+        self.process.disk.check()?;
+        let mut last = self.last_probe.lock().await;
+        if last.is_some_and(|at| at.elapsed() < PROBE_INTERVAL) {
+            return Ok(());
+        }
+        let (mut transaction, now) = self.begin().await?;
+        sqlx::query(
+            "INSERT INTO probes (name, written_at) VALUES ('ready', $1) \
+             ON CONFLICT (name) DO UPDATE SET written_at = excluded.written_at",
+        )
+        .bind(now.system_ms)
+        .execute(&mut *transaction)
+        .await?;
+        transaction.commit().await?;
+        *last = Some(Instant::now());
+        Ok(())
     }
 
     /// Several services of a database count the same time once.

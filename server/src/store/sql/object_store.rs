@@ -1,8 +1,9 @@
 //! The store of objects that a database names, and results that stay in the database.
 
+use sqlx::AssertSqlSafe;
 use uuid::Uuid;
 
-use super::dialect::{EngineStore, stored_id};
+use super::dialect::{EngineStore, IS_MOVABLE, StoredId, read_id, stored_id};
 use crate::store::StoreError;
 
 impl EngineStore {
@@ -10,6 +11,22 @@ impl EngineStore {
         let removes =
             sqlx::query_scalar("SELECT EXISTS (SELECT 1 FROM object_store WHERE removes)");
         Ok(removes.fetch_one(&self.writer).await?)
+    }
+
+    pub(in crate::store) async fn movable_jobs(
+        &self,
+        after: Uuid,
+        most: i64,
+    ) -> Result<Vec<Uuid>, StoreError> {
+        let statement = format!(
+            "SELECT job_id FROM result_blocks WHERE {IS_MOVABLE} AND object IS NULL AND job_id > $1 ORDER BY job_id LIMIT $2"
+        );
+        let jobs: Vec<StoredId> = sqlx::query_scalar(AssertSqlSafe(statement))
+            .bind(stored_id(after))
+            .bind(most)
+            .fetch_all(self.priority_readers())
+            .await?;
+        Ok(jobs.into_iter().map(read_id).collect())
     }
 
     pub(in crate::store) async fn are_objects_marked(

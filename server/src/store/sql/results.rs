@@ -6,7 +6,7 @@ use solver::record::CycleReport;
 use sqlx::AssertSqlSafe;
 use uuid::Uuid;
 
-use super::dialect::{EngineStore, stored_id};
+use super::dialect::{Connection, EngineStore, stored_id};
 use crate::store::rows::{integer, parsed, snapshot};
 use crate::store::{SnapshotPart, StoreError};
 
@@ -54,4 +54,27 @@ impl EngineStore {
         .await?;
         rows.iter().map(|texts| snapshot(id, texts)).collect()
     }
+}
+
+/// Adds snapshots, which replace those of the same cycles.
+pub(in super::super) async fn insert_snapshots(
+    connection: &mut Connection,
+    id: Uuid,
+    snapshots: &[Snapshot],
+) -> Result<(), StoreError> {
+    for snapshot in snapshots {
+        sqlx::query(
+            "INSERT INTO snapshots (job_id, cycle, profile, pressure, friction_loop) VALUES ($1, $2, $3, $4, $5) \
+             ON CONFLICT (job_id, cycle) DO UPDATE SET profile = excluded.profile, pressure = excluded.pressure, \
+             friction_loop = excluded.friction_loop",
+        )
+        .bind(stored_id(id))
+        .bind(integer(snapshot.profile.cycle))
+        .bind(serde_json::to_string(&snapshot.profile)?)
+        .bind(serde_json::to_string(&snapshot.pressure)?)
+        .bind(serde_json::to_string(&snapshot.friction_loop)?)
+        .execute(&mut *connection)
+        .await?;
+    }
+    Ok(())
 }

@@ -13,13 +13,15 @@ mod integrity;
 mod job_list;
 pub(super) mod job_rows;
 mod jobs;
+pub(super) mod lost_jobs;
 mod maintenance;
 mod object_store;
-mod results;
+pub(super) mod results;
+pub(super) mod revisions;
 pub(super) mod selects;
 pub(super) mod stored_blocks;
-mod worker_tokens;
-mod workers;
-
 mod stored_row;
+mod worker_tokens;
+pub(super) mod workers;
+
 use super::{checkpoint_objects, dialect, expansions, queries, transitions};

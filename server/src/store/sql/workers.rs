@@ -4,7 +4,10 @@ use api::worker::RemoteWorker;
 use sqlx::AssertSqlSafe;
 use uuid::Uuid;
 
-use super::dialect::{BY_CLAIM, EngineStore, SKIP_LOCKED, StoredId, read_id, stored_id};
+use super::dialect::{
+    BY_CLAIM, Connection, EngineStore, SKIP_LOCKED, StoredId, read_id, stored_id,
+};
+use crate::clock::Now;
 use crate::store::StoreError;
 use crate::store::rows::remote_worker;
 use crate::store::workers::{WorkerContact, contact_at, present_from, remembered_from};
@@ -102,4 +105,18 @@ impl EngineStore {
         };
         self.with_reserve(write).await
     }
+}
+
+/// Remote workers that are there and start solves.
+pub(in super::super) async fn able_workers(
+    connection: &mut Connection,
+    now: Now,
+) -> Result<Vec<Uuid>, StoreError> {
+    let ids: Vec<StoredId> = sqlx::query_scalar(
+        "SELECT id FROM workers WHERE last_contact_at >= $1 AND NOT is_draining AND failing IS NULL",
+    )
+    .bind(present_from(now.monotonic_ms))
+    .fetch_all(connection)
+    .await?;
+    Ok(ids.into_iter().map(read_id).collect())
 }

@@ -2,21 +2,16 @@
 
 use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
-use uuid::fmt::Hyphenated;
 
 use crate::clock::Now;
 use crate::queue::admit;
-use crate::store::candidates::Candidate;
-use crate::store::rows;
-use crate::store::rows::{StoredRow, integer};
+use crate::store::candidates::{CANDIDATES, Candidate};
+use crate::store::rows::{self, StoredRow, integer};
 use crate::store::sqlite::SqliteStore;
 use crate::store::sqlite::sql::attempts::insert_attempt_event;
 use crate::store::sqlite::sql::checkpoints;
-use crate::store::workers::present_from;
+use crate::store::sqlite::sql::workers::able_workers;
 use crate::store::{Claim, ClaimRequest, ClaimedCheckpoint, Lease, StoreError};
-
-/// Number of waiting jobs among which those that fit are searched, beside one for each slot.
-const CANDIDATES: usize = 64;
 
 impl SqliteStore {
     pub(in crate::store) async fn claim(
@@ -52,16 +47,8 @@ impl SqliteStore {
         }
         let mut claims = Vec::with_capacity(admission.admitted.len());
         for index in admission.admitted {
-            claims.push(
-                claim(
-                    &mut transaction,
-                    candidates[index].id,
-                    request,
-                    now,
-                    expires_at,
-                )
-                .await?,
-            );
+            let id = candidates[index].id;
+            claims.push(claim(&mut transaction, id, request, now, expires_at).await?);
         }
         transaction.commit().await?;
         changed.extend(claims.iter().map(|claim| claim.id));
@@ -85,20 +72,6 @@ async fn candidates(
     .fetch_all(&mut **transaction)
     .await?;
     rows.iter().map(Candidate::read).collect()
-}
-
-/// Remote workers that are there and start solves.
-async fn able_workers(
-    transaction: &mut Transaction<'_, Sqlite>,
-    now: Now,
-) -> Result<Vec<Uuid>, StoreError> {
-    let ids: Vec<Hyphenated> = sqlx::query_scalar(
-        "SELECT id FROM workers WHERE last_contact_at >= ? AND NOT is_draining AND failing IS NULL",
-    )
-    .bind(present_from(now.monotonic_ms))
-    .fetch_all(&mut **transaction)
-    .await?;
-    Ok(ids.into_iter().map(Uuid::from).collect())
 }
 
 /// Sets the status reason of a job; whether it had another one.

@@ -44,6 +44,8 @@ pub(super) const FOR_UPDATE: &str = "";
 pub(super) const SKIP_LOCKED: &str = "";
 /// The object of a row of `result_files`: files are in the folder.
 pub(super) const FILE_OBJECT: &str = "NULL";
+/// Condition of a row of `result_blocks` whose results can be moved, as in their index.
+pub(super) const IS_MOVABLE: &str = "is_movable = 1";
 
 // Named, because the planner may take others.
 pub(super) const BY_CLAIM: &str = " INDEXED BY jobs_by_claim";

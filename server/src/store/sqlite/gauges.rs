@@ -1,14 +1,10 @@
-//! Gauges for `/metrics`, and the write probe.
-
-use std::time::Instant;
+//! Gauges for `/metrics`.
 
 use api::service::Demand;
 
 use crate::metrics::Gauges;
 use crate::store::StoreError;
-use crate::store::gauges::{
-    PROBE_INTERVAL, StatusRow, UNKNOWN_CPU_MS, by_status, progress_age_s, seconds,
-};
+use crate::store::gauges::{StatusRow, UNKNOWN_CPU_MS, by_status, progress_age_s, seconds};
 use crate::store::rows::integer;
 use crate::store::sqlite::SqliteStore;
 use crate::store::workers::present_from;
@@ -87,19 +83,5 @@ impl SqliteStore {
             workers_failing,
             demand_cpu_s: 0,
         })
-    }
-
-    pub(in crate::store) async fn ready(&self) -> Result<(), StoreError> {
-        self.process.disk.check()?;
-        let mut last = self.last_probe.lock().await;
-        if last.is_some_and(|at| at.elapsed() < PROBE_INTERVAL) {
-            return Ok(());
-        }
-        sqlx::query("INSERT OR REPLACE INTO probes (name, written_at) VALUES ('ready', ?)")
-            .bind(self.process.clock.now().system_ms)
-            .execute(&self.writer)
-            .await?;
-        *last = Some(Instant::now());
-        Ok(())
     }
 }

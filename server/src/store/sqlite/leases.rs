@@ -20,6 +20,7 @@ use crate::store::sqlite::new_files::insert_files;
 use crate::store::sqlite::queries::insert_event;
 use crate::store::sqlite::sql::checkpoints;
 use crate::store::sqlite::sql::held_leases;
+use crate::store::sqlite::sql::results::insert_snapshots;
 use crate::store::sqlite::transitions::end_job_at;
 use crate::store::{End, JobUpdate, Lease, LeaseState, StoreError};
 
@@ -222,17 +223,6 @@ async fn write_results(
             .execute(&mut **transaction)
             .await?;
     }
-    for snapshot in &update.snapshots {
-        sqlx::query(
-            "INSERT OR REPLACE INTO snapshots (job_id, cycle, profile, pressure, friction_loop) VALUES (?, ?, ?, ?, ?)",
-        )
-        .bind(&id)
-        .bind(integer(snapshot.profile.cycle))
-        .bind(serde_json::to_string(&snapshot.profile)?)
-        .bind(serde_json::to_string(&snapshot.pressure)?)
-        .bind(serde_json::to_string(&snapshot.friction_loop)?)
-        .execute(&mut **transaction)
-        .await?;
-    }
+    insert_snapshots(transaction, lease.job, &update.snapshots).await?;
     insert_files(transaction, lease, &update.files).await
 }

@@ -2,7 +2,6 @@
 
 use sqlx::{Sqlite, Transaction};
 use uuid::Uuid;
-use uuid::fmt::Hyphenated;
 
 use crate::clock::monotonic_ms;
 use crate::store::StoreError;
@@ -55,21 +54,6 @@ impl SqliteStore {
     )]
     pub(in crate::store) async fn moves_results(&self) -> Result<bool, StoreError> {
         Ok(true)
-    }
-
-    pub(in crate::store) async fn movable_jobs(
-        &self,
-        after: Uuid,
-        most: i64,
-    ) -> Result<Vec<Uuid>, StoreError> {
-        let jobs: Vec<Hyphenated> = sqlx::query_scalar(
-            "SELECT job_id FROM result_blocks WHERE is_movable = 1 AND object IS NULL AND job_id > ? ORDER BY job_id LIMIT ?",
-        )
-        .bind(after.to_string())
-        .bind(most)
-        .fetch_all(&self.readers)
-        .await?;
-        Ok(jobs.into_iter().map(Uuid::from).collect())
     }
 
     pub(in crate::store) async fn note_unnamed(&self, keys: &[String]) -> Result<(), StoreError> {
