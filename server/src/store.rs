@@ -102,7 +102,7 @@ mod workers;
 pub use address::shown_address;
 pub use batches::{
     BatchDetail, BatchEnding, BatchFilter, BatchJob, BatchOverview, BatchPart, Expansion, NewBatch,
-    NewBatchJob, NewExpansion, Portion, RefusedJob, StoredBatch,
+    NewBatchJob, NewExpansion, Portion, StoredBatch,
 };
 pub use changes::{AllChanges, Changes};
 pub use checksum::IntegrityError;

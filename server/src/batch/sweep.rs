@@ -10,7 +10,7 @@ mod variations;
 use std::collections::{BTreeMap, BTreeSet};
 
 use api::problem::Fault;
-use api::sweep::{RefusedChanges, Sweep, SweepJob, SweepRequest};
+use api::sweep::{Sweep, SweepJob, SweepRequest};
 
 use crate::batch::error::EvaluateError;
 use crate::batch::kind::Kind;
@@ -18,7 +18,7 @@ use crate::batch::sweep::variations::Variations;
 use crate::batch::variation::{self, Accept, Variation};
 use crate::estimate::Estimate;
 use crate::spec::Refused;
-use crate::store::{BatchJob, BatchPart, RefusedJob, StoredBatch};
+use crate::store::{BatchJob, BatchPart, StoredBatch};
 
 /// Largest number of jobs of a grid.
 const GRID_LIMIT: u64 = 1_000_000;
@@ -144,11 +144,6 @@ pub(super) fn document(batch: StoredBatch, part: BatchPart) -> Result<Sweep, Eva
         status: job.status,
         outcome: job.outcome,
     };
-    let refused = |job: RefusedJob| RefusedChanges {
-        position: job.position,
-        overrides: job.overrides,
-        reason: job.reason,
-    };
     Ok(Sweep {
         id: overview.id,
         name: overview.name,
@@ -160,7 +155,7 @@ pub(super) fn document(batch: StoredBatch, part: BatchPart) -> Result<Sweep, Eva
         never_queued: overview.never_queued,
         refused: overview.refused,
         jobs: batch.jobs.into_iter().map(shown).collect(),
-        refused_changes: batch.refused.into_iter().map(refused).collect(),
+        refused_changes: batch.refused,
         links,
     })
 }

@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 
 use api::job::Status;
+use api::sweep::RefusedChanges;
 use uuid::Uuid;
 
 use crate::store::StoreError;
-use crate::store::batches::{BatchJob, BatchOverview, Expansion, RefusedJob};
+use crate::store::batches::{BatchJob, BatchOverview, Expansion};
 use crate::store::document::status_and_reason;
 use crate::store::process_state::ProcessState;
 use crate::store::rows::{StoredRow, outcome, parsed, summary, timestamp, unsigned};
@@ -52,8 +53,8 @@ pub(in crate::store) fn batch_job(
 pub(in crate::store) fn refused_job(
     batch: Uuid,
     row: &impl StoredRow,
-) -> Result<RefusedJob, StoreError> {
-    Ok(RefusedJob {
+) -> Result<RefusedChanges, StoreError> {
+    Ok(RefusedChanges {
         position: unsigned(row, "position")?,
         overrides: parsed(batch, "overrides", &row.value::<String>("overrides")?)?,
         reason: row.value("reason")?,

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use api::job::{Outcome, Status};
 use api::results::Summary;
-use api::sweep::Changes;
+use api::sweep::{Changes, RefusedChanges};
 use uuid::Uuid;
 
 use crate::store::NewJob;
@@ -106,29 +106,18 @@ pub struct Portion {
     /// The jobs.
     pub jobs: Vec<NewBatchJob>,
     /// Positions that make no job.
-    pub refused: Vec<RefusedJob>,
+    pub refused: Vec<RefusedChanges>,
 }
 
 impl Portion {
     /// The refused ones that are stored, if so many are refused with them.
-    pub(in crate::store) fn stored_refusals(&self, refused: i64) -> &[RefusedJob] {
+    pub(in crate::store) fn stored_refusals(&self, refused: i64) -> &[RefusedChanges] {
         let all = u64::try_from(refused).unwrap_or_default();
         let own = u64::try_from(self.refused.len()).unwrap_or(u64::MAX);
         let left = STORED_REFUSALS.saturating_sub(all.saturating_sub(own));
         let stored = usize::try_from(left.min(own)).unwrap_or_default();
         &self.refused[..stored]
     }
-}
-
-/// A combination of changes that makes no valid job.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RefusedJob {
-    /// Number in the batch, from 0.
-    pub position: u64,
-    /// Changes against the base specification.
-    pub overrides: Changes,
-    /// Reason for the refusal.
-    pub reason: String,
 }
 
 /// A batch without its jobs.
@@ -164,7 +153,7 @@ pub struct StoredBatch {
     /// The jobs that were asked for, in order, without those that were deleted.
     pub jobs: Vec<BatchJob>,
     /// The first combinations that made no valid job.
-    pub refused: Vec<RefusedJob>,
+    pub refused: Vec<RefusedChanges>,
 }
 
 /// A job of a batch.

@@ -3,19 +3,18 @@
 use std::ops::Range;
 
 use api::problem::Fault;
-use api::sweep::SweepRequest;
+use api::sweep::{RefusedChanges, SweepRequest};
 
 use crate::batch::sweep::variations::Variations;
 use crate::batch::variation::{Accept, Variation};
 use crate::spec::Refused;
-use crate::store::RefusedJob;
 
 /// Returns the jobs at these positions; those that are not valid, or not accepted, are refused with a reason.
 pub(in crate::batch) fn jobs(
     request: &SweepRequest,
     positions: Range<u64>,
     accept: &Accept<'_>,
-) -> (Vec<(u64, Variation)>, Vec<RefusedJob>) {
+) -> (Vec<(u64, Variation)>, Vec<RefusedChanges>) {
     let variations = Variations::of(request);
     let (mut jobs, mut refused) = (Vec::new(), Vec::new());
     for position in positions {
@@ -26,7 +25,7 @@ pub(in crate::batch) fn jobs(
         });
         match accepted {
             Ok(variation) => jobs.push((position, variation)),
-            Err(reason) => refused.push(RefusedJob {
+            Err(reason) => refused.push(RefusedChanges {
                 position,
                 overrides: variations.changes(position),
                 reason,

@@ -1,11 +1,12 @@
 //! Batches with jobs that are queued only when others have been solved.
 
+use api::sweep::RefusedChanges;
 use sqlx::postgres::PgConnection;
 use uuid::Uuid;
 
 use crate::clock::Now;
 use crate::store::StoreError;
-use crate::store::batches::{NewBatchJob, RefusedJob};
+use crate::store::batches::NewBatchJob;
 use crate::store::job_ids::new_id;
 use crate::store::new_row::NewRow;
 use crate::store::postgres::insertion::insert;
@@ -18,7 +19,7 @@ const ROWS: usize = 32;
 pub(super) async fn insert_refusals(
     connection: &mut PgConnection,
     batch: Uuid,
-    refusals: &[RefusedJob],
+    refusals: &[RefusedChanges],
 ) -> Result<(), StoreError> {
     let (mut positions, mut overrides, mut reasons) = (Vec::new(), Vec::new(), Vec::new());
     for refused in refusals {

@@ -1,11 +1,12 @@
 //! Batches with jobs that are queued only when others have been solved.
 
+use api::sweep::RefusedChanges;
 use sqlx::SqliteConnection;
 use uuid::Uuid;
 
 use crate::clock::Now;
 use crate::store::StoreError;
-use crate::store::batches::{NewBatchJob, RefusedJob};
+use crate::store::batches::NewBatchJob;
 use crate::store::rows::integer;
 use crate::store::sqlite::insertion::insert;
 
@@ -13,7 +14,7 @@ use crate::store::sqlite::insertion::insert;
 pub(super) async fn insert_refusals(
     connection: &mut SqliteConnection,
     batch: Uuid,
-    refusals: &[RefusedJob],
+    refusals: &[RefusedChanges],
 ) -> Result<(), StoreError> {
     for refused in refusals {
         sqlx::query(

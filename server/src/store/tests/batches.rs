@@ -1,6 +1,6 @@
 //! Batches whose jobs are queued one portion after the other.
 
-use api::sweep::Changes;
+use api::sweep::{Changes, RefusedChanges};
 use serde_json::json;
 
 use super::*;
@@ -125,7 +125,7 @@ async fn the_next_jobs_of_a_batch_are_queued_once_and_in_order(fixture: Fixture)
         batch,
         positions: 2..4,
         jobs: new_jobs(2..3),
-        refused: vec![RefusedJob {
+        refused: vec![RefusedChanges {
             position: 3,
             overrides: changes(3),
             reason: "/cycles: too many".to_owned(),
@@ -175,7 +175,7 @@ async fn all_refused_combinations_are_counted_and_the_first_are_stored(fixture: 
     };
     let batch = fixture.batch(Vec::new(), Some(expansion)).await;
     for positions in [0..60, 60..120, 120..180] {
-        let refused = positions.clone().map(|position| RefusedJob {
+        let refused = positions.clone().map(|position| RefusedChanges {
             position,
             overrides: changes(position),
             reason: "no".to_owned(),
