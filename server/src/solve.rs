@@ -5,6 +5,7 @@ mod cost;
 pub(crate) mod process;
 pub(crate) mod protocol;
 
+use std::fmt::Display;
 use std::ops::ControlFlow;
 
 use api::results::{BlockExtent, ContactMaps, Cost, Summary};
@@ -17,8 +18,7 @@ use solver::observer::{self, Event, Observer};
 use solver::record::{Excess, Position, Snapshot};
 use solver::scene::Scene;
 
-use crate::export::documents::{JSON, SVG, VTU};
-use crate::export::files::FieldsFile;
+use crate::export::documents::{Document, JSON, SVG, VTU};
 use crate::export::vtu::VtuError;
 use crate::export::{history, life, line, line_maps, maps, mission, pictures, vtu};
 use crate::spec::Resolved;
@@ -182,48 +182,42 @@ impl Recorder<'_> {
         bytes: Result<Vec<u8>, VtuError>,
     ) -> ControlFlow<()> {
         let name = vtu::file_name(cycle, position);
-        match bytes {
-            Ok(bytes) => (self.on)(ChildMessage::Fields(FieldsFile {
-                name,
-                cycle,
-                media_type: VTU,
-                bytes,
-            })),
-            Err(error) => {
-                tracing::error!(%error, name, "fields were not written");
-                ControlFlow::Continue(())
-            }
-        }
+        self.file(name, cycle, VTU, bytes, "fields were not written")
     }
 
     /// Emits the picture of the maps of a snapshot.
     fn picture(&mut self, maps: &ContactMaps) -> ControlFlow<()> {
         let name = pictures::maps::file_name(maps.cycle);
-        match pictures::colour_map(&pictures::maps::picture(maps)) {
-            Ok(drawing) => (self.on)(ChildMessage::Fields(FieldsFile {
-                name,
-                cycle: maps.cycle,
-                media_type: SVG,
-                bytes: drawing.into_bytes(),
-            })),
-            Err(error) => {
-                tracing::error!(%error, name, "a picture was not drawn");
-                ControlFlow::Continue(())
-            }
-        }
+        let drawing = pictures::colour_map(&pictures::maps::picture(maps));
+        let bytes = drawing.map(String::into_bytes);
+        self.file(name, maps.cycle, SVG, bytes, "a picture was not drawn")
     }
 
     /// Emits a document of a snapshot as a file.
     fn document(&mut self, name: String, cycle: u64, document: &impl Serialize) -> ControlFlow<()> {
-        match serde_json::to_vec(document) {
-            Ok(bytes) => (self.on)(ChildMessage::Fields(FieldsFile {
+        let bytes = serde_json::to_vec(document);
+        let failure = "a document of a snapshot was not written";
+        self.file(name, cycle, JSON, bytes, failure)
+    }
+
+    /// Emits a file of a snapshot; one that could not be made is logged and left out.
+    fn file(
+        &mut self,
+        name: String,
+        cycle: u64,
+        media_type: &'static str,
+        bytes: Result<Vec<u8>, impl Display>,
+        failure: &str,
+    ) -> ControlFlow<()> {
+        match bytes {
+            Ok(bytes) => (self.on)(ChildMessage::Fields(Document {
                 name,
-                cycle,
-                media_type: JSON,
+                cycle: Some(cycle),
+                media_type,
                 bytes,
             })),
             Err(error) => {
-                tracing::error!(%error, name, "a document of a snapshot was not written");
+                tracing::error!(%error, name, "{failure}");
                 ControlFlow::Continue(())
             }
         }

@@ -14,8 +14,8 @@ use signal_hook::consts::SIGTERM;
 
 use crate::cli::arguments::ChildArguments;
 use crate::cli::terminal::{Ended, failed, refused, write_err};
-use crate::export::files;
-use crate::export::files::{FieldsFile, FilesError};
+use crate::export::documents::Document;
+use crate::export::files::{self, FilesError};
 use crate::solve;
 use crate::solve::checkpoint::CheckpointPolicy;
 use crate::solve::process::NAME;
@@ -105,8 +105,8 @@ fn end_with_supervisor() {
 /// Writes fields into the attempt's folder and reports the file. A failed write is not the job's fault: while a disk that is waited for
 /// is full, the write is retried until the process is asked to stop; after any other error the process exits without an
 /// outcome, and the job is attempted again.
-fn store(arguments: &ChildArguments, fields: &FieldsFile, stop: &AtomicBool) -> ControlFlow<()> {
-    let FieldsFile {
+fn store(arguments: &ChildArguments, fields: &Document, stop: &AtomicBool) -> ControlFlow<()> {
+    let Document {
         name,
         cycle,
         media_type,
@@ -132,10 +132,7 @@ fn store(arguments: &ChildArguments, fields: &FieldsFile, stop: &AtomicBool) -> 
         std::thread::sleep(DISK_PAUSE);
     }
     write(&ChildMessage::File(files::manifest_entry(
-        name,
-        Some(*cycle),
-        media_type,
-        bytes,
+        name, *cycle, media_type, bytes,
     )))
 }
 

@@ -17,9 +17,8 @@ use crate::cli::terminal::{Ended, bar, failed, unusable, write_err};
 use crate::cli::{specification, summary};
 use crate::estimate::Estimate;
 use crate::estimate::machine::{CalibrationCache, cache_file};
-use crate::export::documents::Results;
+use crate::export::documents::{Document, Results};
 use crate::export::files;
-use crate::export::files::FieldsFile;
 use crate::solve;
 use crate::solve::{ChildMessage, Failure};
 use crate::spec::Resolved;
@@ -92,7 +91,7 @@ fn duration(seconds: f64) -> String {
 struct Recorded {
     rows: Vec<CycleReport>,
     snapshots: Vec<Snapshot>,
-    fields: Vec<FieldsFile>,
+    fields: Vec<Document>,
 }
 
 fn solve(resolved: &Resolved, recorded: &mut Recorded) -> Result<Summary, Failure> {

@@ -10,22 +10,8 @@ use nix::sys::statvfs::statvfs;
 use sha2::{Digest, Sha256};
 use uuid::Uuid;
 
-use crate::export::documents;
-use crate::export::documents::{DocumentError, Results};
+use crate::export::documents::{self, Document, DocumentError, Results};
 use crate::export::earlier;
-
-/// Fields or maps as a file.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FieldsFile {
-    /// File name.
-    pub name: String,
-    /// Cycle of the fields.
-    pub cycle: u64,
-    /// Media type.
-    pub media_type: &'static str,
-    /// Content.
-    pub bytes: Vec<u8>,
-}
 
 /// Why a file was not written.
 #[derive(Debug, thiserror::Error)]
@@ -48,11 +34,7 @@ pub enum FilesError {
 ///
 /// # Errors
 /// [`FilesError`] naming the file.
-pub fn write(
-    folder: &Path,
-    results: &Results<'_>,
-    fields: &[FieldsFile],
-) -> Result<(), FilesError> {
+pub fn write(folder: &Path, results: &Results<'_>, fields: &[Document]) -> Result<(), FilesError> {
     std::fs::create_dir_all(folder).map_err(|cause| FilesError::Write {
         path: folder.to_owned(),
         cause,
@@ -62,15 +44,11 @@ pub fn write(
         std::fs::write(&path, bytes).map_err(|cause| FilesError::Write { path, cause })
     };
     let documents = documents::all(results)?;
-    for document in &documents {
-        file(&document.name, &document.bytes)?;
+    let mut present = Vec::new();
+    for Document { name, bytes, .. } in documents.iter().chain(fields) {
+        file(name, bytes)?;
+        present.push(name.as_str());
     }
-    for fields in fields {
-        file(&fields.name, &fields.bytes)?;
-    }
-    let names = documents.iter().map(|document| document.name.as_str());
-    let fields = fields.iter().map(|fields| fields.name.as_str());
-    let present: Vec<&str> = names.chain(fields).collect();
     earlier::remove(folder, &present).map_err(|cause| FilesError::Write {
         path: folder.to_owned(),
         cause,

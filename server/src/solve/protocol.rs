@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use solver::SolveError;
 use solver::record::CycleReport;
 
-use crate::export::files::FieldsFile;
+use crate::export::documents::Document;
 use crate::solve::checkpoint::{Checkpoint, EncodedCheckpoint};
 
 /// The command of a solving process, its first argument.
@@ -40,7 +40,7 @@ pub enum ChildMessage {
     Snapshot(Box<Snapshot>),
     /// Fields inside the bodies at one position of a snapshot, or maps of the contact; written by the solving process, never sent.
     #[serde(skip)]
-    Fields(FieldsFile),
+    Fields(Document),
     /// A file in the attempt's folder.
     File(ResultFile),
     /// The run restarts at cycle 0, with the cause: it cannot resume from its checkpoint, or its estimated error
