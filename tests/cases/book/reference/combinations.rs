@@ -132,6 +132,7 @@ fn contacts() -> Vec<Feature> {
     let by_dose =
         json!([{"dose_mpa_mm": 0, "coefficient": 0.2}, {"dose_mpa_mm": 2e4, "coefficient": 0.5}]);
     let friction = |table: &str, points: Value| json!({"interface": {"friction": {"law": "coulomb", table: points}}});
+    let gold = json!({"material": "hard_gold", "thickness_um": 0.76, "friction_coefficient": 0.2, "wear": {"law": "archard", "k": 1e-5}});
     let bare = json!({"slider": [], "receptacle": []});
     let law = |law: Value| json!({"plating": bare, "interface": {"wear": {"slider": null, "receptacle": law}}});
     let films = json!([{"specific_resistance_ohm_mm2": 1e-5}]);
@@ -151,6 +152,12 @@ fn contacts() -> Vec<Feature> {
         feature(
             "friction by dose",
             friction("by_dose", by_dose),
+            None,
+            &["verify_changing_friction"],
+        ),
+        feature(
+            "friction by layer",
+            json!({"plating": {"receptacle": [gold]}}),
             None,
             &["verify_changing_friction"],
         ),
