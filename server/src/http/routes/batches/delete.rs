@@ -10,8 +10,6 @@ use crate::http::problem::ProblemResponse;
 use crate::http::routes::batches::error::BatchError;
 use crate::store::{BatchEnding, Deleted};
 
-type Removed = Result<StatusCode, ProblemResponse>;
-
 /// Deletes a sweep whose jobs have all ended, with the jobs, their events and results: those of more than a thousand jobs after the answer.
 #[utoipa::path(
     delete,
@@ -22,7 +20,10 @@ type Removed = Result<StatusCode, ProblemResponse>;
         (status = 409, description = "A job of it has not ended", body = Problem),
     )
 )]
-pub(crate) async fn remove_sweep(app: State<App>, batch: BatchId) -> Removed {
+pub(crate) async fn remove_sweep(
+    app: State<App>,
+    batch: BatchId,
+) -> Result<StatusCode, ProblemResponse> {
     remove(&app, batch).await
 }
 
@@ -36,11 +37,14 @@ pub(crate) async fn remove_sweep(app: State<App>, batch: BatchId) -> Removed {
         (status = 409, description = "A job of it has not ended", body = Problem),
     )
 )]
-pub(crate) async fn remove_study(app: State<App>, batch: BatchId) -> Removed {
+pub(crate) async fn remove_study(
+    app: State<App>,
+    batch: BatchId,
+) -> Result<StatusCode, ProblemResponse> {
     remove(&app, batch).await
 }
 
-async fn remove(app: &App, batch: BatchId) -> Removed {
+async fn remove(app: &App, batch: BatchId) -> Result<StatusCode, ProblemResponse> {
     app.require_batch(batch).await?;
     match app.store.note_deletion(batch.id).await? {
         Deleted::Done => {

@@ -11,8 +11,6 @@ use crate::http::routes::jobs::show_spec::SentSpec;
 use crate::store::BatchDetail;
 use crate::store::BatchPart;
 
-type Base = Result<SentSpec, ProblemResponse>;
-
 /// The base specification of a sweep as it was sent.
 #[utoipa::path(
     get,
@@ -24,7 +22,10 @@ type Base = Result<SentSpec, ProblemResponse>;
         )),
     )
 )]
-pub(crate) async fn show_sweep_base(app: State<App>, batch: BatchId) -> Base {
+pub(crate) async fn show_sweep_base(
+    app: State<App>,
+    batch: BatchId,
+) -> Result<SentSpec, ProblemResponse> {
     base(&app, batch).await
 }
 
@@ -39,11 +40,14 @@ pub(crate) async fn show_sweep_base(app: State<App>, batch: BatchId) -> Base {
         )),
     )
 )]
-pub(crate) async fn show_study_base(app: State<App>, batch: BatchId) -> Base {
+pub(crate) async fn show_study_base(
+    app: State<App>,
+    batch: BatchId,
+) -> Result<SentSpec, ProblemResponse> {
     base(&app, batch).await
 }
 
-async fn base(app: &App, batch: BatchId) -> Base {
+async fn base(app: &App, batch: BatchId) -> Result<SentSpec, ProblemResponse> {
     app.require_batch(batch).await?;
     if let Some(sent) = app.store.sent_base(batch.id).await? {
         return Ok(SentSpec::sent(sent));
