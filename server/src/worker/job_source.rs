@@ -53,12 +53,18 @@ impl JobSourceError {
 
     /// Returns `true` if the job source does not accept this worker.
     pub(super) fn is_rejected(&self) -> bool {
-        matches!(self, Self::Remote(error) if error.is_rejected())
+        match self {
+            Self::Store(_) => false,
+            Self::Remote(error) => error.is_rejected(),
+        }
     }
 
     /// Returns `true` if the job source gives this worker no more jobs.
     pub(super) fn is_drained(&self) -> bool {
-        matches!(self, Self::Remote(error) if error.is_of_type("/problems/worker-drained"))
+        match self {
+            Self::Store(_) => false,
+            Self::Remote(error) => error.is_of_type("/problems/worker-drained"),
+        }
     }
 
     /// Returns `true` if the store of objects takes no file that only it can have.
