@@ -7,7 +7,7 @@ use sqlx::AssertSqlSafe;
 use crate::clock::Now;
 use crate::store::postgres::PostgresStore;
 use crate::store::postgres::compared::Compared;
-use crate::store::postgres::sql::lost_jobs::LOST;
+use crate::store::postgres::sql::lost_jobs::SELECT_LOST;
 use crate::store::rows::integer;
 use crate::store::{Reclaimed, StoreError};
 
@@ -31,7 +31,7 @@ impl PostgresStore {
         };
         let ended_by = now.monotonic_ms - waited_ms;
         let statement = format!(
-            "{LOST} WHERE status = 'running' AND lease_expires_at <= $1 ORDER BY id FOR UPDATE SKIP LOCKED"
+            "{SELECT_LOST} WHERE status = 'running' AND lease_expires_at <= $1 ORDER BY id FOR UPDATE SKIP LOCKED"
         );
         let lost = sqlx::query(AssertSqlSafe(statement))
             .bind(ended_by)

@@ -13,8 +13,8 @@ use crate::store::leases::reclaim;
 use crate::store::rows::{self, StoredRow, unsigned};
 use crate::store::{Lease, Reclaimed, StoreError};
 
-/// Columns of a running job that are read to reclaim it.
-pub(in super::super) const LOST: &str =
+/// Selects what is read of running jobs to reclaim them; the condition follows.
+pub(in super::super) const SELECT_LOST: &str =
     "SELECT id, fruitless, cancel_requested, lease_expires_at FROM jobs";
 
 impl EngineStore {

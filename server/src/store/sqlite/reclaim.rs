@@ -6,7 +6,7 @@ use sqlx::AssertSqlSafe;
 
 use crate::store::leases::ENDED_BY_RESTORE;
 use crate::store::sqlite::SqliteStore;
-use crate::store::sqlite::sql::lost_jobs::LOST;
+use crate::store::sqlite::sql::lost_jobs::SELECT_LOST;
 use crate::store::{Reclaimed, StoreError};
 
 /// Which running jobs are reclaimed.
@@ -59,7 +59,7 @@ impl SqliteStore {
                 ENDED_BY_RESTORE,
             ),
         };
-        let lost = sqlx::query(AssertSqlSafe(format!("{LOST} {condition}")))
+        let lost = sqlx::query(AssertSqlSafe(format!("{SELECT_LOST} {condition}")))
             .bind(limit)
             .fetch_all(&mut *transaction)
             .await?;
