@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use solver::extruded::ExtrudedScene;
+use solver::interpolation;
 use solver::model::{self, Model};
 use solver::observer::{Event, Observer};
 use solver::record::{DepthProfile, Snapshot};
@@ -55,20 +56,31 @@ fn worn(scene: &Scene, cycle: u64) -> Result<Vec<Model>, SolveError> {
     let Some(snapshot) = last.0 else {
         return Ok(vec![model; planes]);
     };
-    let of_plane = |(slider, receptacle): (DepthProfile, DepthProfile)| {
-        let depth = Sides {
-            slider: slider.depth_mm,
-            receptacle: receptacle.depth_mm,
-        };
+    // The mesh of fewer cycles, or of a finer run, has other nodes.
+    let of_plane = |profiles: Sides<DepthProfile>| {
+        let depth = Sides::from_fn(|side| {
+            let DepthProfile { x_mm, depth_mm } = profiles.of(side);
+            let nodes = model.bodies.of(side).contact_x().iter();
+            nodes
+                .map(|x| interpolation::linear(x_mm, depth_mm, *x))
+                .collect()
+        });
         Ok(ale::relocate(&model, &depth)?)
     };
-    if snapshot.stations.is_empty() {
-        return Ok(vec![of_plane((snapshot.slider, snapshot.receptacle))?]);
+    let Snapshot {
+        slider,
+        receptacle,
+        stations,
+        ..
+    } = snapshot;
+    if stations.is_empty() {
+        return Ok(vec![of_plane(Sides { slider, receptacle })?]);
     }
-    let stations = snapshot.stations.into_iter();
-    stations
-        .map(|station| of_plane((station.slider, station.receptacle)))
-        .collect()
+    let profiles = stations.into_iter().map(|station| Sides {
+        slider: station.slider,
+        receptacle: station.receptacle,
+    });
+    profiles.map(of_plane).collect()
 }
 
 /// Stores the last snapshot.
@@ -81,5 +93,41 @@ impl Observer for Last {
             self.0 = Some(snapshot.clone());
         }
         ControlFlow::Continue(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spec;
+    use solver::sides::Side;
+
+    /// The mesh of 18 000 cycles is finer farther out than that of the ten which are solved.
+    #[test]
+    fn surfaces_are_those_of_the_cycle_whatever_follows() {
+        let scene = |cycles: u64| {
+            let text = format!(
+                r#"{{"system":{{"kind":"cylinder_on_flat"}},"cycles":{cycles},"accuracy":{{"preset":"draft"}}}}"#
+            );
+            spec::read(text.as_bytes()).expect("accepted").scene
+        };
+        let (long, short) = (scene(18_000), scene(10));
+        let worn_down = |scene: &Scene| {
+            let [unworn, worn] = [0, 10].map(|cycle| worn(scene, cycle).expect("it is solved"));
+            let [unworn, worn] =
+                [&unworn[0], &worn[0]].map(|model| model.bodies.of(Side::Receptacle));
+            assert_eq!(unworn.contact_x(), worn.contact_x());
+            let heights = unworn.surface_y().iter().zip(worn.surface_y());
+            let down: Vec<f64> = heights.map(|(unworn, worn)| unworn - worn).collect();
+            (worn.contact_x().to_vec(), down)
+        };
+        let ((x, down), (few_x, few_down)) = (worn_down(&long), worn_down(&short));
+        assert_ne!(x.len(), few_x.len());
+        let deepest = few_down.iter().copied().fold(0.0, f64::max);
+        assert!(deepest > 0.0);
+        for (x, down) in x.iter().zip(&down) {
+            let expected = interpolation::linear(&few_x, &few_down, *x);
+            assert!((down - expected).abs() < 1e-6 * deepest, "{x}");
+        }
     }
 }
