@@ -5,10 +5,12 @@
 //!   b^2 / (2 R), so b = sqrt(2 R k P);
 //! * scar of a short stroke: the circular segment that was worn off, b = (3 R W / 2)^(1/3) with the worn area
 //!   W = (k_s + k_r) P s (parabola of height b^2/(2R) over 2 b);
-//! * flat of a slider in a long stroke: the circular segment that it has lost, by the same formula with W = k_s P s;
+//! * flat of a slider in a long stroke: the circular segment that it has lost, by the same formula with W = k_s P s; strokes of many
+//!   half-widths resolve that of the first cycles instead of the unworn contact (`first_flat`);
 //! * ends of the groove of a long stroke 2 A, W/(2 A) deep: the slider's arc reaches b = sqrt(R W / A) up them.
 
 mod constraint_side;
+mod first_flat;
 
 use crate::closed_form::expected_wear::{expected_cycles, wear_rates};
 use crate::closed_form::unworn_contact::{hertz_half_width, radius, sticks};
@@ -16,6 +18,8 @@ use crate::mesh::grading::Spacing;
 use crate::number::real_cycles;
 use crate::scene::{Accuracy, Refinement, Scene};
 use crate::sides::{Side, Sides};
+
+pub use first_flat::{FIRST_FLAT, first_flat};
 
 /// Largest element given by the user or chosen for a coarse companion, over the narrower body's half-length: each half of a
 /// body has at least two. Arbitrary.
@@ -127,7 +131,7 @@ fn of_motion(scene: &Scene, hertz: f64, rates: Sides<f64>, sliding: f64) -> Size
     let amplitude = scene.motion.amplitude_mm();
     let wear = rates.receptacle + rates.slider;
     let worn = wear * load * sliding;
-    let edge_step = (2.0 * radius * wear * load).sqrt();
+    let edge_step = edge_step(radius, wear, load);
     let narrowest = hertz.max(edge_step);
     let segment = |worn: f64| (1.5 * radius * worn).cbrt().min(radius);
     // Gross reciprocating sliding wears a groove, at whose ends the contact climbs the walls; a shorter stroke wears a
@@ -143,6 +147,8 @@ fn of_motion(scene: &Scene, hertz: f64, rates: Sides<f64>, sliding: f64) -> Size
     .max(hertz);
     // A stroke shorter than the leading-edge step does not develop it.
     let narrowest = if gross { narrowest } else { hertz };
+    let resolved = scene.accuracy.narrowest_contact_mm;
+    let resolved = resolved.map_or(narrowest, |resolved| resolved.max(narrowest));
 
     let Accuracy {
         tolerance,
@@ -174,7 +180,7 @@ fn of_motion(scene: &Scene, hertz: f64, rates: Sides<f64>, sliding: f64) -> Size
     let largest = tuning.largest_element * narrower;
     let element = match given {
         Some(element) => element,
-        None => (narrowest / elements).min(at_edge).min(largest),
+        None => (resolved / elements).min(at_edge).min(largest),
     };
     let element = (element / finer).min(FEWEST_SHARE * narrower);
     let slip = scene
@@ -185,7 +191,7 @@ fn of_motion(scene: &Scene, hertz: f64, rates: Sides<f64>, sliding: f64) -> Size
     let core = if given.is_some() {
         zone
     } else {
-        tuning.core * narrowest
+        tuning.core * resolved
     };
     let spacing = |travel: f64, half: f64| Spacing {
         core: element,
@@ -213,7 +219,12 @@ fn of_motion(scene: &Scene, hertz: f64, rates: Sides<f64>, sliding: f64) -> Size
     }
 }
 
-/// Elements across the narrowest half-width of the contact.
+/// Half-width of the leading-edge step that a pass wears by a specific rate, 1/MPa, under a load, N/mm, in mm.
+fn edge_step(radius: f64, rate: f64, load: f64) -> f64 {
+    (2.0 * radius * rate * load).sqrt()
+}
+
+/// Elements across the narrowest half-width of the contact that is resolved.
 fn elements(accuracy: &Accuracy, gross: bool, sticks: bool, slider_wears: bool) -> f64 {
     let (tolerance, tuning) = (accuracy.tolerance, &accuracy.tuning);
     let coarsest = tolerance.min(COARSEST);

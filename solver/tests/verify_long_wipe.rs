@@ -2,17 +2,21 @@
 //! along a part of the travel.
 //!
 //! * Zones and a single mesh give the same depths and pressures, whichever body wears.
+//! * Elements for the flat of the first cycles give the wear of those for the unworn contact, in a fraction of the solves.
 //! * Where all of the contact slides over a flat floor, each pass wears k P (as in `verify_moving_line_contact`).
 
 use crate::verification::recorder::{Recorder, largest_distance, solve};
 use crate::verification::scenes::sprung_contact;
 use solver::model::Layout;
-use solver::record::Summary;
+use solver::record::{CycleReport, Summary};
+use solver::resolution;
 use solver::scene::{Accuracy, Motion, Scene, WearLaw};
 use solver::sides::Sides;
 
 pub(crate) const RATE: f64 = 0.004 / 1700.0;
 const CYCLES: u32 = 10;
+/// From a twentieth of 60 cycles on.
+const REPORTED: [u64; 5] = [3, 6, 12, 30, 60];
 
 /// The sprung contact's bodies and a wipe over 0.8 mm, 180 times the contact's width, at a tolerance of 10 %.
 pub(crate) fn wipe(rates: Sides<f64>) -> Scene {
@@ -134,6 +138,42 @@ fn a_floor_under_a_long_wipe_wears_by_each_pass() {
     println!("floor of a long wipe: off k P a pass by {worst:.1e} at its worst place");
     assert!(worst < 0.03);
     assert!(summary.checks.worn_area < 1e-12);
+}
+
+/// A slider's flat follows from its worn area alone, so that a run forgets how its first cycles were resolved.
+#[test]
+fn elements_for_the_first_flat_give_the_wear_of_those_for_the_unworn_contact() {
+    let mut fine = wipe(Sides {
+        slider: 0.1 * RATE,
+        receptacle: 0.01 * RATE,
+    });
+    fine.cycles = 60;
+    fine.motion = Motion::Reciprocating {
+        amplitude_mm: 0.25,
+        period_s: 1.0,
+    };
+    fine.output.snapshots_at_cycles = REPORTED.to_vec();
+    let mut coarse = fine.clone();
+    coarse.accuracy.narrowest_contact_mm = resolution::first_flat(&fine);
+    let [(expected, of_fine), (found, of_coarse)] =
+        [&fine, &coarse].map(|scene| solve(scene).expect("the wipe is solved"));
+    let apart = |value: fn(&CycleReport) -> f64| {
+        let of = |at| (value(of_coarse.at(at)) / value(of_fine.at(at)) - 1.0).abs();
+        REPORTED.map(of).into_iter().fold(0.0, f64::max)
+    };
+    let depth = apart(|report| report.slider.max_depth_mm);
+    let area = apart(|report| report.slider.worn_area_mm2);
+    let energy = apart(|report| report.dissipated_energy_mj_per_mm);
+    let unworn = found.initial.peak_pressure_mpa / expected.initial.peak_pressure_mpa - 1.0;
+    let elements = found.resolution.contact_element_mm / expected.resolution.contact_element_mm;
+    let [of_unworn, of_flat] = [&expected, &found].map(|run| run.resolution.work.unknowns);
+    println!(
+        "first flat of a long wipe: elements {elements:.1} times as large, {of_flat} unknowns for {of_unworn}; from a twentieth of the cycles on \
+         depth {depth:.1e}, area {area:.1e}, energy {energy:.1e} off; unworn pressure {unworn:+.1e}"
+    );
+    assert!(elements > 2.0 && 2 * of_flat < of_unworn);
+    assert!(depth < 0.02 && area < 1e-3 && energy < 1e-3);
+    assert!(unworn.abs() < 0.01);
 }
 
 /// The estimate of the contact's width may be wrong; zones then become wider, and the run continues from the same cycle.

@@ -1,7 +1,7 @@
 //! Notes of a plan: contradictions in the source of the presets that concern the values of the specification.
 
 use api::spec::{EnumValue, LoadKind, Preset, Provenance, Spec, SystemKind, WearLaw};
-use solver::closed_form::expected_wear::crown_half_lengths_mm;
+use solver::closed_form::expected_wear::{crown_half_lengths_mm, expected_end};
 use solver::closed_form::unworn_contact;
 use solver::closed_form::{PointScene, SlipRegime};
 use solver::resolution;
@@ -29,6 +29,7 @@ pub(crate) fn notes(resolved: &Resolved) -> Vec<String> {
     notes.extend(kept_platings(resolved));
     notes.extend(not_in_estimate(resolved));
     notes.extend(hardnesses(resolved));
+    notes.extend(first_flat(resolved));
     if resolved.kind == SystemKind::FuzzButton {
         notes.extend(fuzz_button(resolved));
     }
@@ -42,6 +43,20 @@ pub(crate) fn notes(resolved: &Resolved) -> Vec<String> {
         ));
     }
     notes
+}
+
+/// That the first cycles of long strokes are not resolved.
+fn first_flat(resolved: &Resolved) -> Option<String> {
+    let scene = &resolved.scene;
+    let flat = scene.accuracy.narrowest_contact_mm?;
+    let unworn = unworn_contact::hertz_half_width(scene);
+    let cycles = expected_end(scene);
+    Some(format!(
+        "elements and increments are chosen for the contact after {} % of the {cycles} cycles, whose half-width is {flat:.2e} mm; the unworn one, \
+         {unworn:.2e} mm, has a mesh of its own: wear and lives do not depend on it, pressures of earlier cycles do. \
+         accuracy.overrides.contact_element_mm resolves them",
+        100.0 * resolution::FIRST_FLAT
+    ))
 }
 
 /// Errors of a crown or a partly sticking point that the stated ones do not hold.
@@ -191,5 +206,30 @@ mod tests {
             r#"{{"system":{{"kind":"sd_card"}},{worn},{fine}}}"#
         ));
         assert!(coarse[0].contains("artefacts"), "{coarse:?}");
+    }
+
+    #[test]
+    fn a_long_wipe_says_what_is_resolved() {
+        let matings = |rest: &str| {
+            let motion = r#""motion":{"kind":"insertion","wipe_mm":1.5}"#;
+            let text =
+                format!(r#"{{"system":{{"kind":"sd_card"}},"cycles":10000,{motion}{rest}}}"#);
+            let resolved = read(text.as_bytes()).expect("accepted");
+            (
+                resolved.scene.accuracy.narrowest_contact_mm,
+                notes(&resolved),
+            )
+        };
+        let (flat, said) = matings("");
+        let flat = flat.expect("its slider has a flat");
+        assert!((0.01..0.02).contains(&flat), "{flat}");
+        let of_flat = format!("after 5 % of the 10000 cycles, whose half-width is {flat:.2e} mm");
+        assert!(said.iter().any(|note| note.contains(&of_flat)), "{said:?}");
+        let given = r#","accuracy":{"overrides":{"contact_element_mm":0.0004}}"#;
+        for other in [given, r#","model":{"dimension":"point"}"#] {
+            let (flat, said) = matings(other);
+            assert_eq!(flat, None);
+            assert!(!said.iter().any(|note| note.contains("of its own")));
+        }
     }
 }

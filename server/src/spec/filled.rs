@@ -2,6 +2,7 @@
 
 use api::spec::{Spec, SystemKind};
 use solver::law::softening::REFERENCE_C;
+use solver::resolution;
 use solver::scene::{Body, Conduction, Dimension, Scene, Softening};
 use solver::sides::Sides;
 
@@ -57,7 +58,8 @@ pub(super) fn resolve(numerics: &Numerics<'_>, diagnostics: &mut Diagnostics) ->
         conduction,
         ..section(numerics, softening)
     };
-    let (scene, chosen) = model::with_dimension(section, bodies.dimension, spec, diagnostics);
+    let (mut scene, chosen) = model::with_dimension(section, bodies.dimension, spec, diagnostics);
+    scene.accuracy.narrowest_contact_mm = resolution::first_flat(&scene);
     let (dimension, chosen) = chosen.unzip();
     let mut filled = Spec {
         life,

@@ -8,8 +8,9 @@ use super::step::required_after;
 use crate::SolveError;
 use crate::checkpoint::{EarlierRuns, Run};
 use crate::effects::EffectsPlan;
+use crate::electrical::ElectricalState;
 use crate::observer::{Event, Observer, Restart};
-use crate::record::{Compared, Initial, Life};
+use crate::record::{Compared, CycleReport, Initial, Life, Snapshot};
 use crate::scene::Scene;
 use crate::schedule::mission_state::MissionState;
 
@@ -33,7 +34,11 @@ pub(super) fn load_unworn<B: Bodies>(
     let mut bodies = B::unworn(scene, &plan, observer)?;
     let blocks = scene.blocks();
     loop {
-        let loaded = load(scene, &plan, &mut bodies.contact(&blocks[0]), observer);
+        let at_rest = unworn_at_rest::<B>(scene, &plan).transpose();
+        let loaded = at_rest.and_then(|at_rest| {
+            let contact = &mut bodies.contact(&blocks[0]);
+            load(scene, &plan, contact, at_rest, observer)
+        });
         let error = match loaded {
             Ok((mut run, flow)) => {
                 run.crossings = crossings;
@@ -65,22 +70,75 @@ pub(super) fn load_unworn<B: Bodies>(
     }
 }
 
-/// Cycle 0: the unworn, loaded state.
+/// What is reported of the unworn contact.
+struct Unworn {
+    report: CycleReport,
+    snapshot: Snapshot,
+    electrical: ElectricalState,
+}
+
+impl Unworn {
+    /// That of a loaded contact.
+    fn of<C: Contact>(
+        scene: &Scene,
+        plan: &EffectsPlan,
+        contact: &C,
+        state: &mut C::State,
+    ) -> Result<Self, SolveError> {
+        let electrical = Resistance::of(scene, plan).of_unworn(contact, state);
+        let worn = contact.worn(state);
+        Ok(Self {
+            report: contact.report(scene, state, &worn, electrical.resistance.as_ref()),
+            snapshot: contact.snapshot(scene, state, &worn)?,
+            electrical,
+        })
+    }
+}
+
+/// Observes nothing: the contact at rest is part of the load.
+struct Silent;
+
+impl Observer for Silent {
+    fn on(&mut self, _: Event<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+/// The unworn contact on a mesh that resolves it, where that of the run does not.
+fn unworn_at_rest<B: Bodies>(
+    scene: &Scene,
+    plan: &EffectsPlan,
+) -> Option<Result<Unworn, SolveError>> {
+    let at_rest = scene.at_rest()?;
+    let loaded = || {
+        let mut bodies = B::unworn(&at_rest, plan, &mut Silent)?;
+        let mut contact = bodies.contact(&at_rest);
+        let mut state = contact.load()?;
+        Unworn::of(scene, plan, &contact, &mut state)
+    };
+    Some(loaded())
+}
+
+/// Cycle 0: the unworn, loaded state, reported as on a mesh of its own if there is one.
 fn load<C: Contact>(
     scene: &Scene,
     plan: &EffectsPlan,
     contact: &mut C,
+    at_rest: Option<Unworn>,
     observer: &mut dyn Observer,
 ) -> Result<(RunOfContact<C>, ControlFlow<()>), SolveError> {
     let mut state = contact.load()?;
-    let electrical = Resistance::of(scene, plan).of_unworn(contact, &mut state);
-    let worn = contact.worn(&state);
-    let report = contact.report(scene, &state, &worn, electrical.resistance.as_ref());
+    let own = Unworn::of(scene, plan, contact, &mut state)?;
+    let electrical = own.electrical.clone();
+    let Unworn {
+        report,
+        snapshot,
+        electrical: reported,
+    } = at_rest.unwrap_or(own);
     let mut compared = Compared::default();
     compared.push(&report);
     let mut flow = observer.on(Event::Cycle(&report));
     if flow.is_continue() {
-        let snapshot = contact.snapshot(scene, &state, &worn)?;
         flow = observer.on(Event::Snapshot(&snapshot));
     }
     if flow.is_continue() {
@@ -89,7 +147,7 @@ fn load<C: Contact>(
     let initial = Initial {
         peak_pressure_mpa: report.peak_pressure_mpa,
         contact_half_width_mm: report.contact_half_width_mm,
-        contact_resistance_mohm: electrical.total_mohm(),
+        contact_resistance_mohm: reported.total_mohm(),
     };
     let mission = scene.mission.as_ref();
     let run = Run {

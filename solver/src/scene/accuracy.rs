@@ -13,6 +13,9 @@ pub struct Accuracy {
     pub tolerance: f64,
     /// Surface element size under the contact, mm; chosen from the tolerance if absent.
     pub contact_element_mm: Option<f64>,
+    /// Half-width of the narrowest contact that elements and increments of strokes are chosen for, mm; the unworn one if absent
+    /// (`resolution::first_flat`).
+    pub narrowest_contact_mm: Option<f64>,
     /// Increments a computed cycle; chosen from the contact width if absent.
     pub increments_per_cycle: Option<u32>,
     /// Physical cycles per computed cycle; chosen from the tolerance if absent.
@@ -55,6 +58,7 @@ impl Accuracy {
         Self {
             tolerance,
             contact_element_mm: None,
+            narrowest_contact_mm: None,
             increments_per_cycle: None,
             cycle_jump: None,
             tuning: Tuning::FITTED,
@@ -65,6 +69,7 @@ impl Accuracy {
 
     /// Largest displacement of an increment for a contact of a half-width, mm.
     pub(crate) fn largest_step(&self, half_width: f64) -> f64 {
+        let half_width = half_width.max(self.narrowest_contact_mm.unwrap_or(0.0));
         self.step_over_half_width() * half_width / self.refinement.increments
     }
 

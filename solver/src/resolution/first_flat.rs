@@ -1,0 +1,134 @@
+//! The contact that a run of long strokes resolves first.
+//!
+//! A slider that rubs over many half-widths has a flat after a few cycles, several times as wide as the unworn contact. Its width follows
+//! from the worn area alone: later cycles forget how the first ones were resolved. An SD card's contact under 10 000 matings of 1.5 mm is 2 um wide
+//! at first and 68 um at last; elements and increments for the unworn contact take many times as long.
+
+use super::{edge_step, moves};
+use crate::closed_form::expected_wear::{expected_cycles, wear_rates, worn_depth_after};
+use crate::closed_form::unworn_contact::{hertz_half_width, radius, sticks};
+use crate::number::{real_cycles, whole_cycles};
+use crate::scene::{Motion, Scene};
+use crate::sides::Side;
+
+/// Least amplitude of such a stroke over the half-width of the narrowest contact. Arbitrary: presets vibrate by 5 to 75 half-widths.
+const LONG: f64 = 100.0;
+
+/// Part of the expected cycles after which the flat is resolved.
+pub const FIRST_FLAT: f64 = 0.05;
+
+/// Half-width of the slider's flat after the first part of a run, mm, where it is wider than the narrowest contact and strokes are long, those
+/// of a mission in one of its blocks; `None` of other runs, of point contacts, where a part may stick through a stroke and where the elements are given.
+///
+/// It is b^2/(2R) deep, at most down to the end of the slider's outer layer.
+pub fn first_flat(scene: &Scene) -> Option<f64> {
+    let (hertz, radius) = (hertz_half_width(scene), radius(scene));
+    let rates = wear_rates(scene, hertz);
+    let both = rates.slider + rates.receptacle;
+    let narrowest = hertz.max(edge_step(radius, both, scene.load_n_per_mm));
+    let mut blocks = scene.blocks();
+    blocks.retain(|block| moves(block));
+    let is_long = |block: &Scene| block.motion.amplitude_mm() > LONG * narrowest;
+    let is_wipe = blocks.iter().any(|block| is_long(block));
+    let may_stick = blocks.iter().any(|block| sticks(block, hertz));
+    let is_chosen = scene.accuracy.contact_element_mm.is_none();
+    if !is_wipe || may_stick || !is_chosen || scene.dimension.point().is_some() {
+        return None;
+    }
+    let cycles = real_cycles(expected_cycles(scene, hertz)) * FIRST_FLAT;
+    let worn = worn_depth_after(scene, hertz, &scene.surface_wear(), whole_cycles(cycles));
+    let outer = scene.plating(Side::Slider).first();
+    let depth = outer.map_or(worn.slider, |layer| worn.slider.min(layer.thickness_mm));
+    let flat = (2.0 * radius * depth).sqrt();
+    (flat > narrowest).then_some(flat)
+}
+
+impl Scene {
+    /// The scene whose mesh resolves the unworn contact, where that of this scene is for a wider one: with a short stroke.
+    pub(crate) fn at_rest(&self) -> Option<Self> {
+        self.accuracy.narrowest_contact_mm?;
+        let mut rest = Self {
+            motion: Motion::Reciprocating {
+                amplitude_mm: self.accuracy.tuning.gross_from * hertz_half_width(self),
+                period_s: 1.0,
+            },
+            cycles: 1,
+            mission: None,
+            ..self.clone()
+        };
+        rest.accuracy.narrowest_contact_mm = None;
+        Some(rest)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::tests::fuzz_button;
+    use crate::scene::{Layer, WearLaw};
+
+    const ARCHARD: WearLaw = WearLaw::Archard {
+        k_over_h_per_mpa: 1e-7,
+    };
+
+    /// A wire that wears by 1 000 wipes of 1 mm.
+    fn wipe() -> Scene {
+        let mut scene = fuzz_button();
+        scene.motion = Motion::Reciprocating {
+            amplitude_mm: 0.5,
+            period_s: 1.0,
+        };
+        scene.cycles = 1_000;
+        scene.slider.wear = Some(ARCHARD);
+        scene.receptacle.wear = None;
+        scene
+    }
+
+    #[test]
+    fn long_strokes_resolve_the_flat_of_their_first_cycles() {
+        let flat = |cycles| {
+            let scene = Scene { cycles, ..wipe() };
+            first_flat(&scene).expect("it has a flat")
+        };
+        // The segment of a twentieth of the cycles, (3 R k P s/2)^(1/3).
+        let segment = (1.5 * 0.0254 * 1e-7 * wipe().load_n_per_mm * 2.0 * 50.0).cbrt();
+        assert!((flat(1_000) / segment - 1.0).abs() < 1e-3);
+        assert!((flat(8_000) / flat(1_000) - 2.0).abs() < 1e-3);
+        let mut plated = wipe();
+        plated.slider.plating = vec![Layer {
+            thickness_mm: 1e-4,
+            rate_per_mpa: 1e-7,
+        }];
+        let through = (2.0_f64 * 0.0254 * 1e-4).sqrt();
+        let found = first_flat(&plated).expect("it has a flat");
+        assert!((found / through - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn other_runs_resolve_the_unworn_contact() {
+        let is_none = |change: fn(&mut Scene)| {
+            let mut scene = wipe();
+            change(&mut scene);
+            first_flat(&scene).is_none() && scene.at_rest().is_none()
+        };
+        assert!(is_none(|scene| scene.slider.wear = None));
+        assert!(is_none(|scene| scene.cycles = 10));
+        assert!(is_none(|scene| scene.motion = fuzz_button().motion));
+        assert!(is_none(
+            |scene| scene.accuracy.contact_element_mm = Some(1e-4)
+        ));
+    }
+
+    /// Its elements are those of a scar about the unworn contact, finer than a groove's.
+    #[test]
+    fn the_unworn_contact_has_a_mesh_of_its_own() {
+        let mut scene = wipe();
+        scene.accuracy.narrowest_contact_mm = first_flat(&scene);
+        let of_run = super::super::choose(&scene);
+        let at_rest = scene.at_rest().expect("it has its own mesh");
+        let of_unworn = super::super::choose(&at_rest);
+        assert!(of_unworn.contact_element < 0.2 * of_unworn.hertz_half_width);
+        assert!(of_run.contact_element > of_run.hertz_half_width / 8.0);
+        assert!(of_unworn.spacing.receptacle.zone_half < 0.1 * of_run.spacing.receptacle.zone_half);
+    }
+}
