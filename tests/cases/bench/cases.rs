@@ -51,6 +51,8 @@ pub(super) fn all() -> Vec<Case> {
         ("fuzz_button.json, fine: minutes", || {
             fuzz_button("fine", 0.003)
         }),
+        ("10 000 matings, draft", || matings("draft", 0.1)),
+        ("10 000 matings, standard", || matings("standard", 0.02)),
         ("scaling with elements", scaling_with_elements),
         ("scaling with cycles", scaling_with_cycles),
     ]
@@ -72,6 +74,13 @@ pub(super) const CYLINDER: &str = r#"{
   "motion": {"kind": "reciprocating", "waveform": "triangle", "amplitude_mm": 0.025, "frequency_hz": 20, "drive": "slider_top"},
   "cycles": 1,
   "accuracy": {"preset": "standard", "overrides": {"contact_element_mm": 0.01, "increments_per_cycle": 32}}
+}"#;
+
+/// A memory card's contacts, a wipe of 1.5 mm.
+const MATINGS: &str = r#"{
+  "system": {"kind": "sd_card"},
+  "motion": {"kind": "insertion", "wipe_mm": 1.5},
+  "cycles": 10000
 }"#;
 
 /// Returns a scene with changed settings.
@@ -241,6 +250,10 @@ fn mccoll(preset: &str, tolerance: f64) -> Result<Vec<Row>, BenchError> {
 
 fn fuzz_button(preset: &str, tolerance: f64) -> Result<Vec<Row>, BenchError> {
     at_preset("fuzz_button.json", FUZZ_BUTTON, preset, tolerance)
+}
+
+fn matings(preset: &str, tolerance: f64) -> Result<Vec<Row>, BenchError> {
+    at_preset("10 000 matings", MATINGS, preset, tolerance)
 }
 
 fn at_preset(name: &str, spec: &str, preset: &str, tolerance: f64) -> Result<Vec<Row>, BenchError> {
