@@ -1,7 +1,7 @@
 //! The contact that a run of long strokes resolves first.
 //!
 //! A slider that rubs over many half-widths has a flat after a few cycles, several times as wide as the unworn contact. Its width follows
-//! from the worn area alone: later cycles forget how the first ones were resolved. An SD card's contact under 10 000 matings of 1.5 mm is 2 um wide
+//! from the worn area alone: later cycles forget how the first ones were resolved. An SD card's contact under 10 000 matings of 1.5 mm has a half-width of 2 um
 //! at first and 68 um at last; elements and increments for the unworn contact take many times as long.
 
 use super::{edge_step, moves};
@@ -119,14 +119,14 @@ mod tests {
         ));
     }
 
-    /// Its elements are those of a scar about the unworn contact, finer than a groove's.
+    /// A scar about the unworn contact has finer elements than a groove.
     #[test]
     fn the_unworn_contact_has_a_mesh_of_its_own() {
         let mut scene = wipe();
         scene.accuracy.narrowest_contact_mm = first_flat(&scene);
-        let of_run = super::super::choose(&scene);
+        let of_run = crate::resolution::choose(&scene);
         let at_rest = scene.at_rest().expect("it has its own mesh");
-        let of_unworn = super::super::choose(&at_rest);
+        let of_unworn = crate::resolution::choose(&at_rest);
         assert!(of_unworn.contact_element < 0.2 * of_unworn.hertz_half_width);
         assert!(of_run.contact_element > of_run.hertz_half_width / 8.0);
         assert!(of_unworn.spacing.receptacle.zone_half < 0.1 * of_run.spacing.receptacle.zone_half);

@@ -70,27 +70,31 @@ pub(super) fn load_unworn<B: Bodies>(
     }
 }
 
-/// What is reported of the unworn contact.
+/// The unworn contact as it is reported.
 struct Unworn {
     report: CycleReport,
     snapshot: Snapshot,
-    electrical: ElectricalState,
+    initial: Initial,
 }
 
 impl Unworn {
-    /// That of a loaded contact.
+    /// Reports a loaded contact.
     fn of<C: Contact>(
         scene: &Scene,
-        plan: &EffectsPlan,
         contact: &C,
-        state: &mut C::State,
+        state: &C::State,
+        electrical: &ElectricalState,
     ) -> Result<Self, SolveError> {
-        let electrical = Resistance::of(scene, plan).of_unworn(contact, state);
         let worn = contact.worn(state);
+        let report = contact.report(scene, state, &worn, electrical.resistance.as_ref());
         Ok(Self {
-            report: contact.report(scene, state, &worn, electrical.resistance.as_ref()),
+            initial: Initial {
+                peak_pressure_mpa: report.peak_pressure_mpa,
+                contact_half_width_mm: report.contact_half_width_mm,
+                contact_resistance_mohm: electrical.total_mohm(),
+            },
             snapshot: contact.snapshot(scene, state, &worn)?,
-            electrical,
+            report,
         })
     }
 }
@@ -114,7 +118,8 @@ fn unworn_at_rest<B: Bodies>(
         let mut bodies = B::unworn(&at_rest, plan, &mut Silent)?;
         let mut contact = bodies.contact(&at_rest);
         let mut state = contact.load()?;
-        Unworn::of(scene, plan, &contact, &mut state)
+        let electrical = Resistance::of(scene, plan).of_unworn(&contact, &mut state);
+        Unworn::of(scene, &contact, &state, &electrical)
     };
     Some(loaded())
 }
@@ -128,13 +133,15 @@ fn load<C: Contact>(
     observer: &mut dyn Observer,
 ) -> Result<(RunOfContact<C>, ControlFlow<()>), SolveError> {
     let mut state = contact.load()?;
-    let own = Unworn::of(scene, plan, contact, &mut state)?;
-    let electrical = own.electrical.clone();
+    let electrical = Resistance::of(scene, plan).of_unworn(contact, &mut state);
     let Unworn {
         report,
         snapshot,
-        electrical: reported,
-    } = at_rest.unwrap_or(own);
+        initial,
+    } = match at_rest {
+        Some(at_rest) => at_rest,
+        None => Unworn::of(scene, contact, &state, &electrical)?,
+    };
     let mut compared = Compared::default();
     compared.push(&report);
     let mut flow = observer.on(Event::Cycle(&report));
@@ -144,11 +151,6 @@ fn load<C: Contact>(
     if flow.is_continue() {
         contact.initial_quarter(&mut state)?;
     }
-    let initial = Initial {
-        peak_pressure_mpa: report.peak_pressure_mpa,
-        contact_half_width_mm: report.contact_half_width_mm,
-        contact_resistance_mohm: reported.total_mohm(),
-    };
     let mission = scene.mission.as_ref();
     let run = Run {
         mission: mission.map(|mission| MissionState::new(scene, mission, contact.totals(&state))),
