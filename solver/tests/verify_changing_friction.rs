@@ -66,30 +66,30 @@ pub(crate) fn shortened(mut scene: Scene, cycles: u64) -> Scene {
 #[test]
 fn equal_points_are_the_constant_law_to_the_bit() {
     // The plan leaves out the wear of a slider that hardly wears.
-    let mut hard_slider = shortened(scar(), 400);
+    let mut hard_slider = shortened(scar(), 200);
     hard_slider.slider.wear = Some(WearLaw::Archard {
         k_over_h_per_mpa: 1e-13,
     });
     // Jumps beyond the tolerance, which are rejected where the friction follows from the wear.
-    let mut coarse = shortened(scar(), 400);
+    let mut coarse = shortened(scar(), 200);
     coarse.accuracy.tuning.jump_of_done = 20.0;
     let scenes = [
-        ("scar", shortened(scar(), 400)),
+        ("scar", shortened(scar(), 200)),
         ("hard slider", hard_slider),
         ("coarse", coarse),
         ("groove", shortened(groove(), 20)),
-        ("partial slip", shortened(partial_slip(), 300)),
+        ("partial slip", shortened(partial_slip(), 150)),
         (
             "both worn",
-            shortened(plated(0.004, &Side::BOTH, 0, 0.1), 300),
+            shortened(plated(0.004, &Side::BOTH, 0, 0.1), 150),
         ),
         (
             "plated",
-            shortened(plated(0.1, &[Side::Receptacle], 0, 0.1), 300),
+            shortened(plated(0.1, &[Side::Receptacle], 0, 0.1), 150),
         ),
         (
             "slider",
-            shortened(plated(0.1, &[Side::Slider], 0, 0.1), 100),
+            shortened(plated(0.1, &[Side::Slider], 0, 0.1), 60),
         ),
     ];
     for (name, scene) in scenes {

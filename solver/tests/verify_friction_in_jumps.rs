@@ -266,7 +266,7 @@ fn changing_friction_goes_through_the_blocks_of_a_mission() {
 /// the last the later ones. So the coefficient hardly changes within them.
 #[test]
 fn repetitions_done_together_meet_the_coefficients_of_their_cycles() {
-    let mission = vibrated_and_wiped(30, None);
+    let mission = vibrated_and_wiped(16, None);
     let end = f64::from(u32::try_from(mission.cycles).expect("few cycles"));
     for (name, friction) in [
         ("rising", by_cycle(&[(0.3 * end, 0.1), (end, 0.9)])),
@@ -291,14 +291,14 @@ fn doses_of_a_curved_law_determine_the_coefficient() {
     for course in [Course::Decelerating, Course::Accelerating] {
         let law = WearLaw::Barwell(Barwell {
             rate_per_mpa: 2e-7,
-            dose_mpa_mm: 400.0,
+            dose_mpa_mm: 200.0,
             course,
         });
         for (name, amplitude, sides) in [
             ("scar", 0.004, &Side::BOTH[..]),
             ("groove", 0.02, &Side::BOTH[1..]),
         ] {
-            let mut scene = plated(amplitude, sides, 600, 0.02);
+            let mut scene = plated(amplitude, sides, 300, 0.02);
             for side in sides {
                 match side {
                     Side::Slider => (scene.slider.wear, scene.slider.plating) = (Some(law), vec![]),
@@ -307,7 +307,7 @@ fn doses_of_a_curved_law_determine_the_coefficient() {
                     }
                 }
             }
-            let scene = with(&scene, by_dose(&[(0.0, LOW), (300.0, HIGH)]));
+            let scene = with(&scene, by_dose(&[(0.0, LOW), (150.0, HIGH)]));
             let mut single = scene.clone();
             single.accuracy.cycle_jump = Some(1);
             let [found, exact] = [&scene, &single].map(|scene| solve(scene).expect("solved").0);

@@ -115,8 +115,8 @@ fn inner_loop_of_a_scar(cycles: u64) -> Scene {
 #[test]
 fn jumps_wear_like_single_cycles() {
     for (name, scene, most) in [
-        ("groove", inner_loop(120), 40),
-        ("scar", inner_loop_of_a_scar(400), 90),
+        ("groove", inner_loop(60), 30),
+        ("scar", inner_loop_of_a_scar(200), 60),
     ] {
         let mut single = scene.clone();
         single.accuracy.cycle_jump = Some(1);

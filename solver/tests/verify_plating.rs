@@ -165,7 +165,7 @@ fn doses_of_worn_layers_add_up_to_the_load_times_its_path() {
         ("long stroke, receptacle plated", 0.1, &Side::BOTH[1..]),
     ];
     for (name, amplitude, sides) in cases {
-        let cycles = if amplitude < 0.05 { 4_000 } else { 1_200 };
+        let cycles = if amplitude < 0.05 { 2_000 } else { 600 };
         check_dose(name, &plated(amplitude, sides, cycles, 0.1));
     }
 }
@@ -173,7 +173,7 @@ fn doses_of_worn_layers_add_up_to_the_load_times_its_path() {
 /// Beside what else a scene may have: a spring, a crown, fields, a continuous motion.
 #[test]
 fn doses_add_up_beside_other_features() {
-    for (name, amplitude, cycles) in [("short stroke", 0.004, 3_000), ("long stroke", 0.1, 600)] {
+    for (name, amplitude, cycles) in [("short stroke", 0.004, 1_500), ("long stroke", 0.1, 300)] {
         let scene = plated(amplitude, &Side::BOTH, cycles, 0.1);
         let mut sprung = scene.clone();
         sprung.spring_n_per_mm2 = 200.0 * sprung.load_n_per_mm;
@@ -213,7 +213,7 @@ fn layers_of_a_short_stroke_converge_with_the_tolerance() {
 #[test]
 fn layers_of_one_rate_wear_as_the_bare_body() {
     for amplitude in [0.004, 0.1] {
-        let mut bare = plated(amplitude, &Side::BOTH, 200, 0.1);
+        let mut bare = plated(amplitude, &Side::BOTH, 100, 0.1);
         bare.slider.plating.clear();
         bare.receptacle.plating.clear();
         let mut layered = bare.clone();

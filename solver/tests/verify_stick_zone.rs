@@ -118,8 +118,8 @@ fn assert_stands(snapshot: &Snapshot, worn: Side) {
 #[test]
 fn the_stick_zone_of_partial_slip_stands_for_ever() {
     the_stick_zone_stands(&[
-        (Side::Receptacle, None, CYCLES[2]),
-        (Side::Slider, None, CYCLES[1]),
+        (Side::Receptacle, None, CYCLES[1]),
+        (Side::Slider, None, CYCLES[0]),
     ]);
 }
 
@@ -130,6 +130,15 @@ mod long {
     #[ignore = "long: takes 8 s"]
     fn the_stick_zone_stands_with_finer_increments() {
         the_stick_zone_stands(&[(Side::Receptacle, Some(80), CYCLES[0])]);
+    }
+
+    #[test]
+    #[ignore = "long: takes 8 s"]
+    fn the_stick_zone_stands_for_more_cycles() {
+        the_stick_zone_stands(&[
+            (Side::Receptacle, None, CYCLES[2]),
+            (Side::Slider, None, CYCLES[1]),
+        ]);
     }
 }
 

@@ -43,7 +43,7 @@ fn softer(scene: &Scene) -> Scene {
 #[test]
 fn a_heated_surface_wears_as_one_of_its_hardness() {
     for amplitude in [0.004, 0.1] {
-        let cool = plated(amplitude, &Side::BOTH, 400, 0.1);
+        let cool = plated(amplitude, &Side::BOTH, 200, 0.1);
         let runs = [&heated(&cool), &softer(&cool), &cool].map(|scene| {
             let (summary, _) = solve(scene).expect("the scene can be solved");
             summary.last

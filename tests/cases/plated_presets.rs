@@ -86,8 +86,8 @@ mod long {
 #[test]
 fn other_strokes_and_matings_end_as_planned() {
     a_stroke_ends_as_planned(0.005);
-    let mating = json!({"motion": {"kind": "insertion", "wipe_mm": 0.3}});
-    ends_as_planned("sd_card, wipe of 0.3 mm", &to_base_metal("sd_card", mating));
+    let mating = json!({"motion": {"kind": "insertion", "wipe_mm": 0.5}});
+    ends_as_planned("sd_card, wipe of 0.5 mm", &to_base_metal("sd_card", mating));
 }
 
 /// The pad wears below a tip that is through to its base.

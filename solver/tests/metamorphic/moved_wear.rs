@@ -102,13 +102,21 @@ fn wear_on_either_side_opens_the_same_gap_in_partial_slip() {
 /// Scenes that differed by 4 to 66 % of the worn area while the surfaces were paired by the imposed displacement.
 #[test]
 fn wear_moves_in_the_scenes_found() {
-    holds_in_found(
-        "moved wear, found",
-        &[
-            14, 15, 30, 48, 51, 54, 60, 61, 62, 63, 72, 108, 121, 135, 147, 170, 180, 181, 183,
-        ],
-        the_same_on_either_side,
-    );
+    let some = [14, 60, 121, 181];
+    holds_in_found("moved wear, found", &some, the_same_on_either_side);
+}
+
+mod long {
+    use super::*;
+
+    #[test]
+    #[ignore = "long: takes 12 s"]
+    fn wear_moves_in_the_other_scenes_found() {
+        let others = [
+            15, 30, 48, 51, 54, 61, 62, 63, 72, 108, 135, 147, 170, 180, 183,
+        ];
+        holds_in_found("moved wear, found", &others, the_same_on_either_side);
+    }
 }
 
 #[test]

@@ -103,11 +103,27 @@ fn bodies_swap_in_scenes_that_differed() {
 /// answers state larger errors.
 #[test]
 fn bodies_swap_in_the_scenes_found_in_partial_slip() {
+    let some = [48, 96, 181];
     holds_in_found(
         "swapped bodies, found in partial slip",
-        &[15, 48, 96, 122, 180, 181],
+        &some,
         the_same_upside_down,
     );
+}
+
+mod long {
+    use super::*;
+
+    #[test]
+    #[ignore = "long: takes 4 s"]
+    fn bodies_swap_in_the_other_scenes_found_in_partial_slip() {
+        let others = [15, 122, 180];
+        holds_in_found(
+            "swapped bodies, found in partial slip",
+            &others,
+            the_same_upside_down,
+        );
+    }
 }
 
 /// The width of the slider's flat, over which its contact has few elements, and the peak pressure at its corner (100). Where they

@@ -12,7 +12,7 @@ use crate::verification::verify_resume::resumes_to_the_same_bits;
 /// Blocks of one motion are one run; blocks of other motions, of which a part sticks in one, resume to the same bits.
 #[test]
 fn changing_friction_of_a_ball_goes_through_the_blocks_of_a_mission() {
-    let scene = plated(0.02, 300, 0.05);
+    let scene = plated(0.02, 300, 0.1);
     let layers = [LOW, HIGH];
     for law in [
         by_cycle(&[(30.0, LOW), (270.0, HIGH)]),
@@ -32,13 +32,13 @@ fn changing_friction_of_a_ball_goes_through_the_blocks_of_a_mission() {
 /// Blocks of one motion are one run; blocks of other motions resume to the same bits.
 #[test]
 fn changing_friction_along_a_line_goes_through_the_blocks_of_a_mission() {
-    let card = card(240);
+    let card = card(120);
     let layers = [LOW, HIGH];
     for (name, scene, law) in [
         (
             "line",
             as_line(&card, Some(CROWN), Top::Rigid),
-            by_cycle(&[(30.0, LOW), (200.0, HIGH)]),
+            by_cycle(&[(15.0, LOW), (100.0, HIGH)]),
         ),
         (
             "extruded",
@@ -47,12 +47,12 @@ fn changing_friction_along_a_line_goes_through_the_blocks_of_a_mission() {
         ),
     ] {
         let mission = |blocks: &[Block]| with(&with_mission(scene.clone(), blocks, 3), law.clone());
-        let alike = mission(&[block(0.005, 30), block(0.005, 50)]);
+        let alike = mission(&[block(0.005, 15), block(0.005, 25)]);
         let one = energy(&with(&scene, law.clone()));
         let off = energy(&alike) / one - 1.0;
         println!("mission, {name}: energy of blocks {off:.1e} off that of one run");
         assert!(off.abs() < 0.1, "{name}: {off}");
-        let unlike = mission(&[block(0.005, 50), block(0.01, 10)]);
+        let unlike = mission(&[block(0.005, 25), block(0.01, 5)]);
         resumes_to_the_same_bits(name, &unlike, 3);
     }
 }

@@ -115,16 +115,14 @@ fn off_plane(scene: &Scene) -> [f64; 3] {
     worst
 }
 
-/// Held ends are plane strain, with and without friction, under both drives, for elements with and without B-bar; free ends are it without
+/// Held ends are plane strain under both drives, for elements with and without B-bar; free ends without friction are it without
 /// Poisson's contraction. At the neutral position and both turning points.
 #[test]
 fn fields_of_plane_strain_are_those_of_the_plane_contact() {
     for (ends, nu, drive, friction) in [
         (Ends::Held, 0.34, Drive::Handle, true),
-        (Ends::Held, 0.34, Drive::Handle, false),
         (Ends::Held, 0.34, Drive::WholeBody, true),
         (Ends::Held, 0.47, Drive::Handle, true),
-        (Ends::Free, 0.0, Drive::Handle, true),
         (Ends::Free, 0.0, Drive::Handle, false),
     ] {
         let mut scene = with_fields(2, ends);
@@ -197,7 +195,7 @@ fn over_width(
 /// through the block, all of which carry the load.
 #[test]
 fn surfaces_and_cuts_carry_the_load() {
-    let scene = with_fields(6, Ends::Free);
+    let scene = with_fields(4, Ends::Free);
     let Dimension::Extruded(own) = scene.dimension else {
         panic!("it is extruded");
     };

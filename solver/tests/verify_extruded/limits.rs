@@ -105,7 +105,7 @@ fn doubled_lengths_wear_twice_as_deep() {
 #[test]
 fn volumes_follow_the_load_and_the_rate_of_either_body() {
     let volume = |load: f64, slider: bool| {
-        let mut scene = button(Ends::Free, TWO, 2);
+        let mut scene = button(Ends::Free, TWO, 1);
         scene.section.accuracy.cycle_jump = Some(1);
         scene.section.load_n_per_mm *= load;
         let law = WearLaw::Archard {

@@ -27,8 +27,8 @@ pub(super) fn extruded(layers: usize, ends: Ends, cycles: u64) -> Scene {
 /// Both sides worn through a layer under a spring, and bodies that are condensed again.
 #[test]
 fn a_resumed_run_of_extruded_bodies_reaches_the_bits_of_the_undisturbed_one() {
-    let mut scene = extruded(2, Ends::Free, 12);
-    scene.accuracy.increments_per_cycle = Some(60);
+    let mut scene = extruded(2, Ends::Free, 8);
+    scene.accuracy.increments_per_cycle = Some(40);
     let rate = 2.5761e-6;
     let law = WearLaw::Archard {
         k_over_h_per_mpa: rate,

@@ -41,11 +41,11 @@ fn floors_nm(summary: &ExtrudedSummary) -> Vec<f64> {
 fn volumes_are_those_of_the_sliding_work() {
     for (name, [slider, receptacle], layers, jump) in [
         ("receptacle", [0.0, 1.0], (4, 1.5), Some(1)),
-        ("receptacle", [0.0, 1.0], (4, 1.5), None),
+        ("receptacle", [0.0, 1.0], TWO, None),
         ("slider", [0.1, 0.0], TWO, Some(1)),
         ("both", [0.1, 1.0], TWO, Some(1)),
     ] {
-        let mut scene = button(Ends::Free, layers, 6);
+        let mut scene = button(Ends::Free, layers, 4);
         scene.section.accuracy.cycle_jump = jump;
         scene.section.slider.wear = wear(slider);
         scene.section.receptacle.wear = wear(receptacle);
@@ -64,22 +64,22 @@ fn volumes_are_those_of_the_sliding_work() {
             assert!(balance.abs() < 1e-10 && ideal.abs() < 0.01);
         }
         assert!((last.force_n / scene.force_n() - 1.0).abs() < 1e-9);
-        let slid = 6.0 * scene.section.motion.distance_per_cycle_mm();
+        let slid = 4.0 * scene.section.motion.distance_per_cycle_mm();
         let friction = last.dissipated_energy_mj / (1.21 * scene.force_n() * slid);
         assert!((friction - 1.0).abs() < 0.01, "{friction}");
     }
 }
 
 /// A floor that the contact passes twice a cycle sinks by 2 k P', as soon as it has sunk by some of the differences of the approach: from cycle
-/// 5 to 20, 2 %, which are ripples of increments. The line load of the unworn end is up to 29 % too small.
+/// 5 to 15, 2 %, which are ripples of increments. The line load of the unworn end is up to 15 % too small.
 #[test]
 fn floors_sink_by_the_line_load_whatever_the_ends() {
     let ideal = 2e6 * COPPER_WEAR * 0.508;
-    for (ends, layers) in [(Ends::Held, TWO), (Ends::Free, TWO), (Ends::Free, (6, 3.0))] {
+    for (ends, layers) in [(Ends::Held, TWO), (Ends::Free, TWO), (Ends::Free, (4, 3.0))] {
         let run = |cycles| solved(&in_single_cycles(button(ends, layers, cycles)));
-        let (early, late) = (run(5), run(20));
+        let (early, late) = (run(5), run(15));
         let rates: Vec<f64> = (floors_nm(&late).iter().zip(floors_nm(&early)))
-            .map(|(late, early)| (late - early) / 15.0)
+            .map(|(late, early)| (late - early) / 10.0)
             .collect();
         let loads: Vec<f64> = (early.initial.stations.iter())
             .map(|plane| plane.line_load_n_per_mm / 0.508)

@@ -30,8 +30,8 @@ fn halved_increments_change_little() {
 
 #[test]
 fn a_periodic_run_resumes_to_the_same_bits() {
-    let mut scene = both_wear(inner_loop(60));
-    scene.output.snapshots_at_cycles = vec![30, 60];
+    let mut scene = both_wear(inner_loop(30));
+    scene.output.snapshots_at_cycles = vec![15, 30];
     resumes_to_the_same_bits("periodic", &scene, 2);
 }
 
@@ -41,7 +41,7 @@ fn a_periodic_run_states_its_error() {
     let of = |accuracy| {
         let scene = Scene {
             accuracy,
-            ..inner_loop(60)
+            ..inner_loop(30)
         };
         solve(&scene).expect("the scene can be solved").0
     };
@@ -56,10 +56,7 @@ fn a_periodic_run_states_its_error() {
 /// The cost model follows the strokes of a periodic motion.
 #[test]
 fn the_work_of_a_periodic_motion_is_foreseen() {
-    for (name, scene) in [
-        ("pad", inner_loop(120)),
-        ("both", both_wear(inner_loop(120))),
-    ] {
+    for (name, scene) in [("pad", inner_loop(60)), ("both", both_wear(inner_loop(30)))] {
         let layout = Layout::of(&scene).expect("it can be meshed");
         let expected = forecast(&scene, &layout).increments();
         let (done, _) = solve(&scene).expect("the scene can be solved");

@@ -81,7 +81,7 @@ fn doses_of_barwells_law_add_up_to_the_load_times_its_path() {
 #[test]
 fn doses_of_barwells_law_add_up_beside_other_features() {
     for (course, law) in COURSES.map(|(name, course)| (name, barwell(course))) {
-        for (stroke, (amplitude, cycles)) in [("short", (0.004, 1_000)), ("long", (0.1, 200))] {
+        for (stroke, (amplitude, cycles)) in [("short", (0.004, 500)), ("long", (0.1, 100))] {
             let mut base = scene((amplitude, cycles), WearLaw::Barwell(law), &Side::BOTH);
             base.accuracy = Accuracy::from_tolerance(0.1);
             let mut sprung = base.clone();

@@ -165,11 +165,11 @@ fn what_adds_is_the_dose(exponents: &[f64], tolerance: f64) {
     }
 }
 
-/// The laws with the exponents furthest from those of Archard's, for a quarter of the cycles of the long form.
+/// The laws with the exponents furthest from those of Archard's, for a sixteenth of the cycles of the long form.
 #[test]
 fn power_laws_do_not_depend_on_increments_and_jumps() {
-    let quarter = |(amplitude, cycles): (f64, u64)| (amplitude, cycles / 4);
-    let (short, long) = (quarter(SHORT), quarter(LONG));
+    let fewer = |(amplitude, cycles): (f64, u64)| (amplitude, cycles / 16);
+    let (short, long) = (fewer(SHORT), fewer(LONG));
     let [_, _, repetition, (name, hardening)] = laws(short.0);
     let receptacle = at_speed(short, hardening, &Side::BOTH[1..]);
     check_refinement(&format!("{name}, short stroke"), &receptacle);
