@@ -45,7 +45,7 @@ pub(crate) fn notes(resolved: &Resolved) -> Vec<String> {
     notes
 }
 
-/// The first cycles of a long wipe, which are not resolved.
+/// The first cycles in gross sliding, which are not resolved.
 fn first_flat(resolved: &Resolved) -> Option<String> {
     let scene = &resolved.scene;
     let flat = scene.accuracy.narrowest_contact_mm?;
