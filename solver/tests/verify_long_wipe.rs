@@ -7,6 +7,7 @@
 
 use crate::verification::recorder::{Recorder, largest_distance, solve};
 use crate::verification::scenes::sprung_contact;
+use crate::verification::verify_resume::resumes_to_the_same_bits;
 use solver::model::Layout;
 use solver::record::{CycleReport, Summary};
 use solver::resolution;
@@ -140,9 +141,8 @@ fn a_floor_under_a_long_wipe_wears_by_each_pass() {
     assert!(summary.checks.worn_area < 1e-12);
 }
 
-/// A slider's flat follows from its worn area alone, so that a run forgets how its first cycles were resolved.
-#[test]
-fn elements_for_the_first_flat_give_the_wear_of_those_for_the_unworn_contact() {
+/// A wipe that wears the slider, with elements for the unworn contact and for the flat of the first cycles.
+fn worn_sliders() -> [Scene; 2] {
     let mut fine = wipe(Sides {
         slider: 0.1 * RATE,
         receptacle: 0.01 * RATE,
@@ -155,6 +155,20 @@ fn elements_for_the_first_flat_give_the_wear_of_those_for_the_unworn_contact() {
     fine.output.snapshots_at_cycles = REPORTED.to_vec();
     let mut coarse = fine.clone();
     coarse.accuracy.narrowest_contact_mm = resolution::first_flat(&fine);
+    [fine, coarse]
+}
+
+#[test]
+fn a_run_of_the_first_flat_resumes_to_the_same_bits() {
+    let [_, coarse] = worn_sliders();
+    assert!(coarse.accuracy.narrowest_contact_mm.is_some());
+    resumes_to_the_same_bits("first flat", &coarse, 2);
+}
+
+/// A slider's flat follows from its worn area alone, so that a run forgets how its first cycles were resolved.
+#[test]
+fn elements_for_the_first_flat_give_the_wear_of_those_for_the_unworn_contact() {
+    let [fine, coarse] = worn_sliders();
     let [(expected, of_fine), (found, of_coarse)] =
         [&fine, &coarse].map(|scene| solve(scene).expect("the wipe is solved"));
     let apart = |value: fn(&CycleReport) -> f64| {
