@@ -200,7 +200,8 @@ mod tests {
         let plated = of(r#"{"system":{"kind":"sd_card"}}"#);
         assert!(plated.len() == 3 && plated[2].starts_with("427 MPa"));
         let worn = r#""plating":{"slider":[],"receptacle":[]},"interface":{"wear":{"receptacle":{"law":"archard","k":1e-4,"hardness_mpa":1700}}}"#;
-        assert!(of(&format!(r#"{{"system":{{"kind":"sd_card"}},{worn}}}"#)).is_empty());
+        let bare = of(&format!(r#"{{"system":{{"kind":"sd_card"}},{worn}}}"#));
+        assert!(bare.len() == 1 && bare[0].starts_with("elements and increments are chosen for"));
         let fine = r#""accuracy":{"preset":"source_fine"}"#;
         let coarse = of(&format!(
             r#"{{"system":{{"kind":"sd_card"}},{worn},{fine}}}"#

@@ -82,89 +82,106 @@ impl EngineStore {
 /// A query of columns of jobs by the conditions, the order and the limits of a filter, with what they are ordered by. The columns are read for
 /// the page alone, whose ids are found first.
 fn listing(columns: &str, filter: &Filter) -> QueryBuilder<Engine> {
-    let direction = if filter.order.descending {
-        " DESC NULLS LAST"
-    } else {
-        " ASC NULLS LAST"
-    };
     let has_value = filter.order.key.kind() != OrderKind::Id;
     let mut query = QueryBuilder::new(format!("SELECT {columns}"));
     if has_value {
         query.push(format!(", {ORDER_VALUE}"));
     }
-    query.push(" FROM (SELECT id AS listed");
-    match filter.order.key.kind() {
-        OrderKind::Id => {}
-        OrderKind::Text => {
-            query.push(", ");
-            push_order_key(&mut query, filter);
-            query.push(format!(" AS {ORDER_VALUE}"));
-        }
-        OrderKind::Number => {
-            query.push(", CAST(");
-            push_order_key(&mut query, filter);
-            query.push(format!(" AS double precision) AS {ORDER_VALUE}"));
-        }
-    }
-    query.push(" FROM jobs");
-    push_conditions(&mut query, filter);
-    push_place(&mut query, filter);
-    query.push(" ORDER BY ");
-    push_order_key(&mut query, filter);
-    query.push(direction);
-    if has_value {
-        query.push(", id DESC");
-    }
-    query.push(" LIMIT ").push_bind(i64::from(filter.limit));
-    query.push(format!(
-        ") AS page {JOIN_IN_ORDER} jobs ON id = listed ORDER BY "
-    ));
-    query.push(if has_value { ORDER_VALUE } else { "id" });
-    query.push(direction);
-    if has_value {
-        query.push(", id DESC");
-    }
+    query.push(" FROM (");
+    push_page(&mut query, filter);
+    query.push(format!(") AS page {JOIN_IN_ORDER} jobs ON id = listed"));
+    push_order(&mut query, filter, "id");
     query
 }
 
-/// Appends that jobs are behind the place of a filter: they have a value further on in its order, the same value and a smaller id, or no
-/// value.
-fn push_place(query: &mut QueryBuilder<Engine>, filter: &Filter) {
+/// Appends the ids of a page: the first jobs, or those behind a place. These have a value further on in the order of the filter or the same value and a smaller
+/// id, or no value: two queries, of which the first one enters an index of the order at the value.
+fn push_page(query: &mut QueryBuilder<Engine>, filter: &Filter) {
+    let further = if filter.order.descending { " <" } else { " >" };
     let Some(ListPlace { id, value }) = &filter.after else {
-        return;
+        push_jobs(query, filter);
+        return push_limit(query, filter);
     };
-    let further = if filter.order.descending {
-        " < "
-    } else {
-        " > "
-    };
-    match value {
-        None if filter.order.key == OrderKey::Created => {
-            query
-                .push(" AND id")
-                .push(further)
-                .push_bind(stored_id(*id));
-        }
-        None => {
+    let id = stored_id(*id);
+    let Some(value) = value else {
+        push_jobs(query, filter);
+        if filter.order.key == OrderKey::Created {
+            query.push(" AND id").push(further).push_bind(id);
+        } else {
             query.push(" AND ");
             push_order_key(query, filter);
-            query.push(" IS NULL AND id < ").push_bind(stored_id(*id));
+            query.push(" IS NULL AND id < ").push_bind(id);
         }
-        Some(value) => {
-            query.push(" AND (");
-            push_order_key(query, filter);
-            query.push(further);
-            push_value(query, value);
-            query.push(" OR ");
-            push_order_key(query, filter);
-            query.push(" = ");
-            push_value(query, value);
-            query.push(" AND id < ").push_bind(stored_id(*id));
-            query.push(" OR ");
-            push_order_key(query, filter);
-            query.push(" IS NULL)");
-        }
+        return push_limit(query, filter);
+    };
+    query.push("SELECT * FROM (SELECT * FROM (");
+    push_jobs(query, filter);
+    query.push(" AND ");
+    push_order_key(query, filter);
+    query.push(further).push("= ");
+    push_value(query, value);
+    query.push(" AND (");
+    push_order_key(query, filter);
+    query.push(further).push(" ");
+    push_value(query, value);
+    query.push(" OR id < ").push_bind(id).push(")");
+    push_limit(query, filter);
+    query.push(") AS further UNION ALL SELECT * FROM (");
+    push_jobs(query, filter);
+    query.push(" AND ");
+    push_order_key(query, filter);
+    query.push(" IS NULL");
+    push_limit(query, filter);
+    query.push(") AS valueless) AS behind");
+    push_order(query, filter, "listed");
+    query.push(" LIMIT ").push_bind(i64::from(filter.limit));
+}
+
+/// Appends a query of the ids of the jobs that pass a filter, with what they are ordered by.
+fn push_jobs(query: &mut QueryBuilder<Engine>, filter: &Filter) {
+    query.push("SELECT id AS listed");
+    let (before, after) = match filter.order.key.kind() {
+        OrderKind::Id => ("", ""),
+        OrderKind::Text => (", ", " AS "),
+        OrderKind::Number => (", CAST(", " AS double precision) AS "),
+    };
+    if filter.order.key.kind() != OrderKind::Id {
+        query.push(before);
+        push_order_key(query, filter);
+        query.push(after).push(ORDER_VALUE);
     }
+    query.push(" FROM jobs");
+    push_conditions(query, filter);
+}
+
+/// Appends the order by the key itself, which indexes know, and the limit of a filter.
+fn push_limit(query: &mut QueryBuilder<Engine>, filter: &Filter) {
+    query.push(" ORDER BY ");
+    push_order_key(query, filter);
+    push_direction(query, filter);
+    if filter.order.key.kind() != OrderKind::Id {
+        query.push(", id DESC");
+    }
+    query.push(" LIMIT ").push_bind(i64::from(filter.limit));
+}
+
+/// Appends the order by the column of the value and that of the id.
+fn push_order(query: &mut QueryBuilder<Engine>, filter: &Filter, id: &str) {
+    let has_value = filter.order.key.kind() != OrderKind::Id;
+    query.push(" ORDER BY ");
+    query.push(if has_value { ORDER_VALUE } else { id });
+    push_direction(query, filter);
+    if has_value {
+        query.push(format!(", {id} DESC"));
+    }
+}
+
+fn push_direction(query: &mut QueryBuilder<Engine>, filter: &Filter) {
+    query.push(if filter.order.descending {
+        " DESC NULLS LAST"
+    } else {
+        " ASC NULLS LAST"
+    });
 }
 
 fn push_value(query: &mut QueryBuilder<Engine>, value: &OrderValue) {
