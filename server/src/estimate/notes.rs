@@ -182,7 +182,7 @@ mod tests {
     #[test]
     fn notes_appear_where_contradictory_values_are_used() {
         let base = of(r#"{"system":{"kind":"fuzz_button"}}"#);
-        assert_eq!(base.len(), 6, "{base:?}");
+        assert_eq!(base.len(), 7, "{base:?}");
         assert!(
             base[0]
                 .starts_with("plating of the preset kept on the slider: 0.76 um of hard_gold over")
