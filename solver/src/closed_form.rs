@@ -5,6 +5,7 @@ pub mod expected_wear;
 mod hertz;
 pub mod line_contact;
 mod point_scene;
+mod stroke_parts;
 pub mod unworn_contact;
 pub(crate) mod worn_cap;
 pub(crate) mod worn_depth;
@@ -14,3 +15,4 @@ pub use point_scene::{
     PointAccuracy, PointBody, PointScene, SlipRegime, cell_mm, half_lengths_mm,
     middle_line_load_n_per_mm,
 };
+pub(crate) use stroke_parts::StrokeParts;

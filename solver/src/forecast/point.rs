@@ -287,8 +287,8 @@ impl Solving {
 
     /// Takes the solves of an implicit jump that wears a depth in mm: at all positions before and after it, and of the contacts that are reported.
     fn jump_implicitly(&mut self, contact: &PointScene, worn: &Worn, depth: f64) {
-        let distance = contact.accuracy.step_over_half_length * worn.along;
-        let positions = count_at_least(contact.amplitude_mm.abs() / distance) + 1;
+        let parts = contact.parts(worn.along);
+        let positions = parts.pressures(contact.amplitude_mm.abs());
         // Indentation of a flat punch.
         let mean_length = (worn.along * worn.across).sqrt();
         let indentation = contact.force_n / (2.0 * contact.modulus() * mean_length);

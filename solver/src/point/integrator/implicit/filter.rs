@@ -3,8 +3,9 @@
 //! For one wave number with the compliance C = 2/(E* kappa), the phases e_s and e_r of the windows on both bodies, the paths w, and wear
 //! a = n k of either side, pressures P at all positions open gaps of
 //!   R = C P + a_s conj(e_s) S + a_r conj(e_r) T,   S = sum w e_s P,  T = sum w e_r P:
-//! a diagonal and two modes (Woodbury). With S_R and T_R, the same sums of R, W = sum w and X = sum w e_s conj(e_r), both modes follow from
-//!   (C + a_s W) s + a_s X t = a_s S_R,  a_r X s + (C + a_r W) t = a_r T_R,   P = (R - conj(e_s) s - conj(e_r) t)/C.
+//! a diagonal and two modes (Woodbury). With S_R and T_R, the same sums of R, W_s = sum w |e_s|^2, W_r and X = sum w e_s conj(e_r), both modes follow from
+//!   (C + a_s W_s) s + a_s X t = a_s S_R,  a_r X s + (C + a_r W_r) t = a_r T_R,   P = (R - conj(e_s) s - conj(e_r) t)/C.
+//! Phases of a position are the means of those of its places.
 //! Mirrored positions have conjugate spectra about the middle of the window, so that all sums are real.
 
 use std::f64::consts::PI;
@@ -30,8 +31,9 @@ pub(super) struct PressureFilter {
     middle: (Vec<Complex<f64>>, Vec<Complex<f64>>),
     /// Phases of all positions on both bodies by the wave number along.
     phases: Sides<Vec<Complex<f64>>>,
-    /// Sums X by the wave number along.
+    /// Sums X and W by the wave number along.
     mixed: Vec<f64>,
+    own: Sides<Vec<f64>>,
     /// Paths of all positions.
     paths: Vec<f64>,
 }
@@ -63,6 +65,7 @@ impl PressureFilter {
             ),
             phases: Sides::default(),
             mixed: Vec::new(),
+            own: Sides::default(),
             paths: Vec::new(),
         }
     }
@@ -74,18 +77,22 @@ impl PressureFilter {
         for side in Side::BOTH {
             let all = positions
                 .iter()
-                .flat_map(|position| phases(nx, *position.offsets.of(side)));
+                .flat_map(|position| mean_phases(nx, position, side));
             *self.phases.of_mut(side) = all.collect();
         }
-        self.mixed = (0..nx)
-            .map(|i| {
-                let terms = self.paths.iter().enumerate().map(|(m, path)| {
-                    let at = |side: Side| self.phases.of(side)[m * nx + i];
-                    path * (at(Side::Slider) * at(Side::Receptacle).conj()).re
-                });
-                terms.sum()
-            })
-            .collect();
+        let sums = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            let sum = |i: usize| {
+                let terms = self.paths.iter().enumerate();
+                terms.map(|(m, path)| path * of(m * nx + i)).sum()
+            };
+            (0..nx).map(sum).collect()
+        };
+        let mixed = sums(&|at| (self.phases.slider[at] * self.phases.receptacle[at].conj()).re);
+        let own = self
+            .phases
+            .as_ref()
+            .map(|phases| sums(&|at| phases[at].norm_sqr()));
+        (self.mixed, self.own) = (mixed, own);
         self.spectra
             .resize(self.transform.length() * positions.len(), Complex::zero());
     }
@@ -143,9 +150,11 @@ impl PressureFilter {
             sums.slider += path * (self.phases.slider[m * nx + i] * value).re;
             sums.receptacle += path * (self.phases.receptacle[m * nx + i] * value).re;
         }
-        let total: f64 = self.paths.iter().sum();
         let (wear, mixed) = (self.wear, self.mixed[i]);
-        let own = wear.map(|wear| compliance + wear * total);
+        let total = self.own.as_ref().map(|own| own[i]);
+        let own = wear
+            .zip(total)
+            .map(|(wear, total)| compliance + wear * total);
         let other = wear.map(|wear| wear * mixed);
         let det = own.slider * own.receptacle - other.slider * other.receptacle;
         let rhs = wear.zip(sums).map(|(wear, sum)| wear * sum);
@@ -165,6 +174,17 @@ impl PressureFilter {
 /// Wave number of an index, 1/mm.
 fn wave(i: usize, n: usize, step: f64) -> f64 {
     2.0 * PI * real(i.min(n - i)) / (real(n) * step)
+}
+
+/// Mean of the phases of a position on a side by the wave number.
+fn mean_phases(n: usize, position: &JumpPosition, side: Side) -> Vec<Complex<f64>> {
+    let mut mean = vec![Complex::zero(); n];
+    for (place, part) in position.parts() {
+        for (mean, phase) in mean.iter_mut().zip(phases(n, *place.offsets.of(side))) {
+            *mean += phase * part;
+        }
+    }
+    mean
 }
 
 /// Phases exp(-i k u) of an offset u in cells by the wave number.

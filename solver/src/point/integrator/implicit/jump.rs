@@ -52,7 +52,7 @@ impl PointIntegrator {
         }
     }
 
-    /// Places the contacts of the next cycle; returns the pressures to begin with, those of the last jump if there are as many.
+    /// Places the contacts of the next cycle; returns the pressures to begin with, those of the last jump if there was one.
     fn place(&mut self, state: &PointState) -> Vec<f64> {
         let (sliding, cells) = (&state.sliding, state.sliding.lattice.cells());
         let pressures = match self.pressures.take() {
@@ -64,20 +64,23 @@ impl PointIntegrator {
             }
         };
         let along = state.neutral.half_lengths_mm.0 / cells.dx_mm;
-        let distance = self.scene.accuracy.step_over_half_length * along;
-        let positions = positions(&sliding.lattice, distance);
-        let gaps = positions.iter().map(|position| {
-            let gap = sliding.lattice.unworn_gap_mm(&self.scene, position.slider);
-            gap.into_iter()
-        });
-        let unworn = gaps.flatten().collect();
-        let is_known = sliding.passing.len() == positions.len();
-        let begin = |number: usize| {
-            if is_known {
-                &sliding.passing[number].values
-            } else {
-                &sliding.pressure.values
+        let positions = positions(&sliding.lattice, self.scene.parts(along));
+        let unworn = positions.iter().flat_map(|position| {
+            let mut mean = vec![0.0; cells.count()];
+            for (place, part) in position.parts() {
+                let gap = sliding.lattice.unworn_gap_mm(&self.scene, place.slider);
+                for (mean, gap) in mean.iter_mut().zip(gap) {
+                    *mean += part * gap;
+                }
             }
+            mean
+        });
+        let unworn = unworn.collect();
+        // As far from the turning point.
+        let begin = |number: usize| {
+            let last = (number + sliding.passing.len()).saturating_sub(positions.len());
+            let found = sliding.passing.get(last).unwrap_or(&sliding.pressure);
+            &found.values
         };
         let pressure = (0..positions.len()).flat_map(begin).copied().collect();
         pressures.place(positions, unworn);

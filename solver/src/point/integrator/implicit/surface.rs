@@ -7,7 +7,7 @@
 //! after the filter, with the least compliance c of the grid as C: s = sqrt((c + n k_m W)/(c + n k W)). Limiting case: one rate, s = 1.
 
 use super::fields::add_mirrored;
-use super::positions::JumpPosition;
+use super::positions::{JumpPosition, Place};
 use crate::point::surface::Surface;
 use crate::sides::Side;
 
@@ -77,17 +77,24 @@ impl<'a> JumpSurface<'a> {
     pub(super) fn add_depths(&self, positions: &[JumpPosition], gap: &mut [f64]) {
         let count = gap.len() / positions.len();
         for (position, gap) in positions.iter().zip(gap.chunks_exact_mut(count)) {
-            let first = self.first(position);
-            let depths = &self.depth[first..first + count];
-            for (gap, depth) in gap.iter_mut().zip(depths) {
-                *gap += depth;
+            self.add_mean(position, &self.depth, gap);
+        }
+    }
+
+    /// Adds the mean of a field of the surface at the places of a position.
+    fn add_mean(&self, position: &JumpPosition, field: &[f64], out: &mut [f64]) {
+        for (place, part) in position.parts() {
+            let first = self.first(place);
+            let values = &field[first..first + out.len()];
+            for (out, value) in out.iter_mut().zip(values) {
+                *out += part * value;
             }
         }
     }
 
-    /// First cell of the window at a position.
-    fn first(&self, position: &JumpPosition) -> usize {
-        self.surface.dose.width() * position.rows.of(self.side)
+    /// First cell of the window at a place.
+    fn first(&self, place: &Place) -> usize {
+        self.surface.dose.width() * place.rows.of(self.side)
     }
 
     /// Takes a direction of the pressures; returns the sum of depths times its doses, and the change of that sum by the present layers.
@@ -123,11 +130,7 @@ impl<'a> JumpSurface<'a> {
         }
         let count = field.len() / positions.len();
         for (position, field) in positions.iter().zip(field.chunks_exact_mut(count)) {
-            let first = self.first(position);
-            let worn = &self.change[first..first + count];
-            for (value, worn) in field.iter_mut().zip(worn) {
-                *value += worn;
-            }
+            self.add_mean(position, &self.change, field);
         }
     }
 
@@ -192,10 +195,10 @@ impl<'a> JumpSurface<'a> {
     fn reduce(&self, positions: &[JumpPosition], pressure: &mut [f64]) {
         let count = pressure.len() / positions.len();
         for (position, pressure) in positions.iter().zip(pressure.chunks_exact_mut(count)) {
-            let first = self.first(position);
-            let parts = &self.sum[first..first + count];
-            for (p, part) in pressure.iter_mut().zip(parts) {
-                *p *= part;
+            for (cell, p) in pressure.iter_mut().enumerate() {
+                let parts = position.places.iter();
+                let parts = parts.map(|place| self.sum[self.first(place) + cell]);
+                *p *= parts.fold(f64::INFINITY, f64::min);
             }
         }
     }
@@ -243,16 +246,7 @@ impl<'a> JumpSurface<'a> {
         }
         let total: f64 = positions.iter().map(|position| position.path).sum();
         let mean = least_compliance + total * self.mean_wear();
-        self.sum.fill(0.0);
-        let count = free.len() / positions.len();
-        for (position, free) in positions.iter().zip(free.chunks_exact(count)) {
-            let first = self.first(position);
-            let places = self.sum[first..first + count].iter_mut().zip(free);
-            for (path, free) in places {
-                *path += 0.5 * position.path * free;
-            }
-        }
-        add_mirrored(&mut self.sum);
+        add_positions(self.side, self.surface, positions, free, &mut self.sum);
         let places = self.sum.iter().zip(&self.rate);
         for (share, (path, rate)) in self.share.iter_mut().zip(places) {
             *share = 0.0;
@@ -273,17 +267,19 @@ impl<'a> JumpSurface<'a> {
         let fields = field.chunks_exact_mut(count);
         for (position, (field, free)) in positions.iter().zip(fields.zip(free.chunks_exact(count)))
         {
-            let first = self.first(position);
-            let shares = &self.share[first..first + count];
-            let means = self.sum[first..first + count].iter().zip(shares);
-            for ((value, free), (sum, share)) in field.iter_mut().zip(free).zip(means) {
-                *value -= free * share * sum;
+            for (place, part) in position.parts() {
+                let first = self.first(place);
+                let shares = &self.share[first..first + count];
+                let means = self.sum[first..first + count].iter().zip(shares);
+                for ((value, free), (sum, share)) in field.iter_mut().zip(free).zip(means) {
+                    *value -= part * free * share * sum;
+                }
             }
         }
     }
 }
 
-/// Writes the sum of half of the path times a field at each position and at the mirrored one.
+/// Writes the sum of half of the path times a field at each place and at the mirrored one.
 fn add_positions(
     side: Side,
     surface: &Surface,
@@ -294,10 +290,12 @@ fn add_positions(
     out.fill(0.0);
     let count = field.len() / positions.len();
     for (position, values) in positions.iter().zip(field.chunks_exact(count)) {
-        let first = surface.dose.width() * position.rows.of(side);
-        let half = 0.5 * position.path;
-        for (out, value) in out[first..first + count].iter_mut().zip(values) {
-            *out += half * value;
+        for place in &position.places {
+            let first = surface.dose.width() * place.rows.of(side);
+            let half = 0.5 * place.path;
+            for (out, value) in out[first..first + count].iter_mut().zip(values) {
+                *out += half * value;
+            }
         }
     }
     add_mirrored(out);

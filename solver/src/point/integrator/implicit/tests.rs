@@ -6,8 +6,9 @@ use crate::law::elastic::Elastic;
 use crate::law::plating::Layer;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::WearLaw;
-use crate::number::real_cycles;
+use crate::number::{real, real_cycles};
 use crate::point::motions::PointMotions;
+use crate::point::surface::Surface;
 use crate::sides::{Side, Sides};
 
 /// A ball on a flat, both of gold over a base of 10 times its rate.
@@ -155,4 +156,52 @@ fn the_doses_of_jumps_add_up_to_the_sliding_work() {
             .zip(right)
             .all(|(a, b)| a.to_bits() == b.to_bits())
     );
+}
+
+/// Depths on both bodies after some jumps, and the numbers of pressures in the first and the last one, with parts of a stroke of these lengths over
+/// the half-length of the contact.
+fn worn(scene: &PointScene, length: f64, shared_length: f64) -> (Sides<Vec<f64>>, [usize; 2]) {
+    let mut scene = *scene;
+    scene.accuracy.step_over_half_length = length;
+    scene.accuracy.shared_length = shared_length;
+    let (mut integrator, mut state) = begin(&scene);
+    let mut numbers = Vec::new();
+    for cycles in [50, 100, 200, 400, 800] {
+        let jumped = integrator.jump(&mut state, &laws(&scene), cycles);
+        jumped.expect("it converges");
+        let at_the_end = integrator.contacts_at_the_end(&mut state);
+        at_the_end.expect("it has a contact");
+        numbers.push(state.sliding.passing.len());
+    }
+    let surfaces = state.sliding.surfaces.as_ref();
+    (surfaces.map(Surface::depths_mm), [numbers[0], numbers[4]])
+}
+
+/// Amplitudes of some 1 to 25 half-lengths.
+#[test]
+fn parts_of_a_stroke_wear_as_a_pressure_for_each_cell() {
+    let deepest = |depths: &[f64]| depths.iter().copied().fold(0.0, f64::max);
+    for (amplitude, slider_wears) in [(0.02, true), (0.02, false), (0.3, true), (0.3, false)] {
+        let mut scene = scene(2e-9);
+        scene.amplitude_mm = amplitude;
+        if !slider_wears {
+            scene.bodies.slider.wear = None;
+        }
+        let (expected, of_cells) = worn(&scene, 0.0625, 0.0);
+        let (found, numbers) = worn(&scene, 0.25, 1.0);
+        let off = Sides::from_fn(|side| {
+            let (found, expected) = (found.of(side), expected.of(side));
+            let peaks = deepest(found) / deepest(expected) - 1.0;
+            (deepest(expected) > 0.0).then(|| [apart(found, expected), peaks.abs()])
+        });
+        for side in Side::BOTH {
+            let off = off.of(side).unwrap_or_default();
+            assert!(
+                off[0] < 6e-3 && off[1] < 2.5e-3,
+                "+-{amplitude} mm, {side:?}: {off:?}"
+            );
+        }
+        let most = if amplitude > 0.1 { 0.2 } else { 0.6 };
+        assert!(real(numbers[0]) < most * real(of_cells[0]), "{numbers:?}");
+    }
 }
