@@ -1,6 +1,7 @@
 //! Input of a run of a point contact.
 
 use super::hertz;
+use super::point_accuracy::PointAccuracy;
 use super::stroke_parts::StrokeParts;
 use crate::law::elastic::{Elastic, Lame, contact_modulus};
 use crate::law::surface::SurfaceWear;
@@ -11,14 +12,6 @@ use crate::sides::Sides;
 /// Largest amplitude over the half-length of a contact whose surfaces wear in place: what they are displaced over each other by is then
 /// small against the scar. Arbitrary.
 const LARGEST_PARTIAL: f64 = 0.1;
-
-/// Tolerance that a grid of 12 cells and steps of a quarter suffice for. The powers below it are arbitrary: errors are stated, and grids that
-/// are too coarse refined.
-const SUFFICIENT_FOR: f64 = 0.02;
-
-/// `shared_length` at that tolerance. The deepest places are those with a pressure for each cell within 0.2 %, of a long groove within 0.1 %
-/// (`point::integrator::implicit::tests`).
-const SHARED_LENGTH: f64 = 1.0;
 
 /// A body: its shape at the contact, its material and its surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,48 +84,12 @@ impl CyclePath {
     }
 }
 
-/// Grid and integration settings.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PointAccuracy {
-    /// Largest estimated relative error of the wear of a jump.
-    pub tolerance: f64,
-    /// Cells along each half-length of the unworn contact; the grid coarsens as the contact grows.
-    pub cells_per_half_length: f64,
-    /// Displacement of an increment over the half-length of the contact.
-    pub step_over_half_length: f64,
-    /// Length of the part of a long stroke that has one pressure in an implicit jump, over its distance from where such parts begin; 0 for none.
-    pub shared_length: f64,
-    /// Cycles of a computed one; chosen from the tolerance if absent.
-    pub cycle_jump: Option<u64>,
-    /// Factor on the number of computed cycles: jumps, and what bounds them, are divided by it.
-    pub cycles_refinement: f64,
-    /// True if jumps are implicit in the worn shapes where they can be and where that saves work (`Tuning::implicit_jumps`).
-    pub implicit_jumps: bool,
-}
-
 /// Line load of the middle section of the unworn point contact of a scene, N/mm: pi/2 p0 a = 3 F/(4 b), 0 for another scene.
 pub fn middle_line_load_n_per_mm(scene: &Scene) -> f64 {
     PointScene::of(scene, SlipRegime::Gross).map_or(0.0, |contact| {
         let (_, across) = contact.half_lengths_mm();
         0.75 * contact.force_n / across
     })
-}
-
-impl PointAccuracy {
-    /// Grid and steps for a tolerance: those that suffice for 2 %, and finer ones below. Coarser grids leave their companions too few
-    /// cells.
-    pub fn from_tolerance(tolerance: f64) -> Self {
-        let finer = (SUFFICIENT_FOR / tolerance).max(1.0);
-        Self {
-            tolerance,
-            cells_per_half_length: 12.0 * finer.powf(0.25),
-            step_over_half_length: 0.25 * finer.powf(-0.2),
-            shared_length: SHARED_LENGTH * finer.powf(-0.2),
-            cycle_jump: None,
-            cycles_refinement: 1.0,
-            implicit_jumps: false,
-        }
-    }
 }
 
 /// Half-lengths along and across the sliding direction of the unworn point contact of a scene, mm; `None` for another scene.
@@ -145,33 +102,6 @@ pub fn cell_mm(scene: &Scene) -> f64 {
     PointScene::of(scene, SlipRegime::Gross).map_or(0.0, |contact| {
         contact.half_lengths_mm().0 / contact.accuracy.cells_per_half_length
     })
-}
-
-impl PointAccuracy {
-    /// Grid and steps for the tolerance of a scene whose contact has a half-length in mm, with what the user gives, and refined.
-    fn of(scene: &Scene, along: f64) -> Self {
-        let accuracy = &scene.accuracy;
-        let chosen = Self::from_tolerance(accuracy.tolerance);
-        let refinement = accuracy.refinement;
-        let given = accuracy.contact_element_mm.map(|cell| along / cell);
-        let cells = given.unwrap_or(chosen.cells_per_half_length);
-        let path = scene.motion.distance_per_cycle_mm();
-        // Increments of no motion have no length.
-        let given = accuracy
-            .increments_per_cycle
-            .map(|count| path / (f64::from(count) * along))
-            .filter(|step| *step > 0.0);
-        let step = given.unwrap_or(chosen.step_over_half_length);
-        Self {
-            cells_per_half_length: cells * refinement.mesh,
-            step_over_half_length: step / refinement.increments,
-            shared_length: chosen.shared_length / refinement.increments,
-            cycle_jump: accuracy.cycle_jump,
-            cycles_refinement: refinement.cycles,
-            implicit_jumps: accuracy.tuning.implicit_jumps && !scene.friction.changes(),
-            ..chosen
-        }
-    }
 }
 
 impl PointBody {
@@ -332,8 +262,8 @@ impl PointScene {
         StrokeParts {
             length: self.accuracy.step_over_half_length * half_length,
             half_length,
-            shared_length: if is_alike {
-                self.accuracy.shared_length
+            part_over_distance: if is_alike {
+                self.accuracy.part_over_distance
             } else {
                 0.0
             },

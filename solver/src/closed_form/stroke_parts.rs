@@ -5,8 +5,8 @@
 
 use crate::number::{nearest, real};
 
-/// Distance from the turning point over the half-length of the contact from which on parts are longer. Arbitrary: 1.5 and 4 take a tenth less and
-/// a quarter more pressures, and wear the same within 0.1 %.
+/// Distance from the turning point over the half-length of the contact from which on parts are longer. Arbitrary: with 1.5 and 4 a stroke of 25
+/// half-lengths has 15 and 25 pressures instead of 19, and wears the same within 0.1 %.
 const EVEN_FROM: f64 = 2.5;
 
 /// Lengths of the parts, all in one unit.
@@ -16,15 +16,15 @@ pub(crate) struct StrokeParts {
     pub(crate) length: f64,
     /// Half-length of the contact.
     pub(crate) half_length: f64,
-    /// Length of a part over its distance from where parts are longer (`PointAccuracy::shared_length`).
-    pub(crate) shared_length: f64,
+    /// Length of a part over its distance from where parts are longer (`PointAccuracy::part_over_distance`).
+    pub(crate) part_over_distance: f64,
 }
 
 impl StrokeParts {
     /// Lengths near the turning point that the part so far from it has.
     pub(crate) fn lengths(&self, from_end: f64) -> usize {
         let beyond = from_end - EVEN_FROM * self.half_length;
-        let lengths = self.shared_length * beyond.max(0.0) / self.length;
+        let lengths = self.part_over_distance * beyond.max(0.0) / self.length;
         nearest(lengths.floor()).max(1)
     }
 
@@ -48,7 +48,7 @@ mod tests {
         let mut parts = StrokeParts {
             length: 0.5,
             half_length: 1.0,
-            shared_length: 1.0,
+            part_over_distance: 1.0,
         };
         assert_eq!(
             [0.0, 2.5, 3.5, 8.5].map(|at| parts.lengths(at)),
@@ -57,7 +57,7 @@ mod tests {
         // One for each length in 100 half-lengths, 6 in 2.5 and few more.
         assert_eq!(parts.pressures(2.5), 6);
         assert!((8..15).contains(&parts.pressures(100.0)));
-        parts.shared_length = 0.0;
+        parts.part_over_distance = 0.0;
         assert_eq!(parts.pressures(100.0), 201);
     }
 }

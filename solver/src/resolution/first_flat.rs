@@ -14,7 +14,7 @@ use crate::sides::Side;
 /// Amplitude of a wipe over the half-width of the narrowest contact. Arbitrary: presets vibrate by 5 to 75 half-widths.
 const LONG: f64 = 100.0;
 
-/// Least half-width of the flat of a shorter stroke over the narrowest one. Arbitrary: with less, a run takes little longer as it is.
+/// Least half-width of the flat of a shorter stroke over the narrowest one. Arbitrary: a run of 1.5 times takes a seventh of the time.
 const WIDER: f64 = 1.4;
 
 /// Most of the flat over the amplitude, so that the ends of a scar are resolved: an SD card's pad is through to its base after 509 000 cycles

@@ -31,7 +31,7 @@ pub(super) struct PressureFilter {
     middle: (Vec<Complex<f64>>, Vec<Complex<f64>>),
     /// Phases of all positions on both bodies by the wave number along.
     phases: Sides<Vec<Complex<f64>>>,
-    /// Sums X and W by the wave number along.
+    /// Sums X, and W of either side, by the wave number along.
     mixed: Vec<f64>,
     own: Sides<Vec<f64>>,
     /// Paths of all positions.
@@ -179,9 +179,9 @@ fn wave(i: usize, n: usize, step: f64) -> f64 {
 /// Mean of the phases of a position on a side by the wave number.
 fn mean_phases(n: usize, position: &JumpPosition, side: Side) -> Vec<Complex<f64>> {
     let mut mean = vec![Complex::zero(); n];
-    for (place, part) in position.parts() {
+    for (place, weight) in position.weights() {
         for (mean, phase) in mean.iter_mut().zip(phases(n, *place.offsets.of(side))) {
-            *mean += phase * part;
+            *mean += phase * weight;
         }
     }
     mean

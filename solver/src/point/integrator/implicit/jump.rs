@@ -67,10 +67,10 @@ impl PointIntegrator {
         let positions = positions(&sliding.lattice, self.scene.parts(along));
         let unworn = positions.iter().flat_map(|position| {
             let mut mean = vec![0.0; cells.count()];
-            for (place, part) in position.parts() {
+            for (place, weight) in position.weights() {
                 let gap = sliding.lattice.unworn_gap_mm(&self.scene, place.slider);
                 for (mean, gap) in mean.iter_mut().zip(gap) {
-                    *mean += part * gap;
+                    *mean += weight * gap;
                 }
             }
             mean

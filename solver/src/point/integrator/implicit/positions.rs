@@ -5,8 +5,8 @@
 //! all, with the amplitude A.
 //!
 //! The contact has one pressure in a part, at each cell that the slider passes there. Its gap is the mean of theirs by their paths, so that the
-//! pressures are those of least energy among fewer, and leave no ripples of the length of a part: as accurate as pressures at single cells
-//! that lie half as far apart. Parts are longer where the groove of a long stroke is even (`closed_form::stroke_parts`).
+//! pressures are those of least energy among fewer, and leave no ripples of the length of a part. Parts are longer where the groove of a long
+//! stroke is even (`closed_form::stroke_parts`).
 
 use std::ops::Range;
 
@@ -36,8 +36,8 @@ pub(super) struct JumpPosition {
 }
 
 impl JumpPosition {
-    /// All places with their parts of the path.
-    pub(super) fn parts(&self) -> impl Iterator<Item = (&Place, f64)> {
+    /// All places, with the path of each over that of all.
+    pub(super) fn weights(&self) -> impl Iterator<Item = (&Place, f64)> {
         let places = self.places.iter();
         places.map(|place| (place, place.path / self.path))
     }

@@ -83,11 +83,11 @@ impl<'a> JumpSurface<'a> {
 
     /// Adds the mean of a field of the surface at the places of a position.
     fn add_mean(&self, position: &JumpPosition, field: &[f64], out: &mut [f64]) {
-        for (place, part) in position.parts() {
+        for (place, weight) in position.weights() {
             let first = self.first(place);
             let values = &field[first..first + out.len()];
             for (out, value) in out.iter_mut().zip(values) {
-                *out += part * value;
+                *out += weight * value;
             }
         }
     }
@@ -267,12 +267,12 @@ impl<'a> JumpSurface<'a> {
         let fields = field.chunks_exact_mut(count);
         for (position, (field, free)) in positions.iter().zip(fields.zip(free.chunks_exact(count)))
         {
-            for (place, part) in position.parts() {
+            for (place, weight) in position.weights() {
                 let first = self.first(place);
                 let shares = &self.share[first..first + count];
                 let means = self.sum[first..first + count].iter().zip(shares);
                 for ((value, free), (sum, share)) in field.iter_mut().zip(free).zip(means) {
-                    *value -= part * free * share * sum;
+                    *value -= weight * free * share * sum;
                 }
             }
         }

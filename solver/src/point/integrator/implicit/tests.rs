@@ -158,12 +158,12 @@ fn the_doses_of_jumps_add_up_to_the_sliding_work() {
     );
 }
 
-/// Depths on both bodies after some jumps, and the numbers of pressures in the first and the last one, with parts of a stroke of these lengths over
-/// the half-length of the contact.
-fn worn(scene: &PointScene, length: f64, shared_length: f64) -> (Sides<Vec<f64>>, [usize; 2]) {
+/// Depths on both bodies after some jumps, and the numbers of pressures in the first and the last one, with parts of a stroke of this length over the
+/// half-length of the contact and, in a long groove, over their distance.
+fn worn(scene: &PointScene, length: f64, part_over_distance: f64) -> (Sides<Vec<f64>>, [usize; 2]) {
     let mut scene = *scene;
     scene.accuracy.step_over_half_length = length;
-    scene.accuracy.shared_length = shared_length;
+    scene.accuracy.part_over_distance = part_over_distance;
     let (mut integrator, mut state) = begin(&scene);
     let mut numbers = Vec::new();
     for cycles in [50, 100, 200, 400, 800] {
@@ -177,13 +177,22 @@ fn worn(scene: &PointScene, length: f64, shared_length: f64) -> (Sides<Vec<f64>>
     (surfaces.map(Surface::depths_mm), [numbers[0], numbers[4]])
 }
 
-/// Amplitudes of some 1 to 25 half-lengths.
+/// Amplitudes of some 1 to 25 half-lengths; on a crown too, where parts do not become longer.
+///
+/// Doses of a pad that wears alone under +-0.02 mm are off by 0.50 %, its deepest place by 0.19 %; all others by less.
 #[test]
 fn parts_of_a_stroke_wear_as_a_pressure_for_each_cell() {
     let deepest = |depths: &[f64]| depths.iter().copied().fold(0.0, f64::max);
-    for (amplitude, slider_wears) in [(0.02, true), (0.02, false), (0.3, true), (0.3, false)] {
+    for (amplitude, slider_wears, crown) in [
+        (0.02, true, None),
+        (0.02, false, None),
+        (0.3, true, None),
+        (0.3, false, None),
+        (0.1, true, Some(0.5)),
+    ] {
         let mut scene = scene(2e-9);
         scene.amplitude_mm = amplitude;
+        scene.bodies.receptacle.radius_along_mm = crown;
         if !slider_wears {
             scene.bodies.slider.wear = None;
         }
@@ -201,6 +210,7 @@ fn parts_of_a_stroke_wear_as_a_pressure_for_each_cell() {
                 "+-{amplitude} mm, {side:?}: {off:?}"
             );
         }
+        // Parts are two cells long near the turning points.
         let most = if amplitude > 0.1 { 0.2 } else { 0.6 };
         assert!(real(numbers[0]) < most * real(of_cells[0]), "{numbers:?}");
     }
