@@ -14,6 +14,9 @@ import { SweepForm } from "./sweep_form.js";
 /** What is submitted: its name, its collection, its page. @type {Record<Kind, [string, string, string]>} */
 const KINDS = { job: ["one job", "/v1/jobs", "job"], sweep: ["sweep", "/v1/sweeps", "sweep"], accuracy: ["accuracy study", "/v1/studies", "accuracy"] };
 
+/** Status of an answer that names faults of the request. */
+const REFUSED = 422;
+
 /** The choice of what is submitted, its forms, its request and the button. */
 export class Submission {
   /** The specification, while it is one. @type {any} */
@@ -23,6 +26,8 @@ export class Submission {
   #expected = "";
   /** The sweep whose processor time is known or asked for, as it would be sent. */
   #planned_sweep = "";
+  /** Faults that the service has found in it. @type {{pointer: string, detail: string}[]} */
+  #sweep_faults = [];
   #plan_sweep;
   #signal;
   #refused;
@@ -124,21 +129,25 @@ export class Submission {
     this.#curl.textContent = `curl --json '${JSON.stringify(body).replaceAll("'", "'\\''")}' ${location.origin}${KINDS[this.kind][1]}`;
   }
 
-  /** Asks what the sweep takes, unless the same was asked before. */
+  /** Asks what the sweep takes; of one that was asked before, shows the faults again. */
   async #ask_for_sweep() {
     const asked = this.kind === "sweep" && this.#is_accepted && this.#sweep.is_complete ? JSON.stringify(this.#request()) : "";
-    if (asked === this.#planned_sweep) return;
+    if (asked === this.#planned_sweep) return void this.#sweep.mark(this.#sweep_faults);
     this.#planned_sweep = asked;
+    this.#sweep_faults = [];
     this.#sweep.expect("");
     if (asked === "") return;
     try {
       const { estimates } = await post_json("/v1/sweeps/plans", JSON.parse(asked));
       if (asked === this.#planned_sweep && !this.#signal.aborted) this.#sweep.expect(duration_range(estimates.cpu_s, estimates.cpu_s_most));
     } catch (error) {
-      // Faults of no field of the sweep are said when it is submitted.
-      if (error instanceof Problem && asked === this.#planned_sweep && !this.#signal.aborted) this.#sweep.mark(error.faults);
-      this.#planned_sweep = "";
       if (!(error instanceof Problem || error instanceof Unreachable)) throw error;
+      if (asked !== this.#planned_sweep || this.#signal.aborted) return;
+      if (error instanceof Problem && error.status === REFUSED) {
+        // Faults of no field of the sweep are said when it is submitted.
+        this.#sweep_faults = error.faults;
+        this.#sweep.mark(error.faults);
+      } else this.#planned_sweep = "";
     }
   }
 

@@ -31,16 +31,37 @@ async fn a_sweep_from_the_form_is_watched_to_its_end_and_its_map_opens_jobs() {
     browser
         .shows("[aria-label=Expected]", "processor time")
         .await;
+    let expected = "document.querySelector('[aria-label=Expected]').innerText";
+    browser.run(&format!("window.preset = {expected}")).await;
     browser.run(&type_base).await;
-    let offered = "[...document.querySelectorAll('.swept option')].some((option) => option.value === '/load/n_per_mm')";
-    browser.wait_for(offered).await;
+    browser
+        .wait_for(&format!("{expected} !== window.preset"))
+        .await;
 
     // A value that is refused is said to be so at its field, before it is submitted and then.
     set(&browser, 0, "select", "/load/n_per_mm").await;
     set(&browser, 0, "input.values", "-100, 200, 300").await;
     browser.shows("button.primary", "Submit 3 jobs").await;
     browser.shows(".swept .fault", "-100 is outside").await;
+    // The same sweep is not asked for again with each plan of its base.
+    let count = |end: &str| {
+        format!(
+            "performance.getEntriesByType('resource').filter(({{ name }}) => name.endsWith('{end}')).length"
+        )
+    };
+    let (plans, plans_of_sweeps) = (count("/v1/plans"), count("/v1/sweeps/plans"));
+    let before = format!("[window.plans, window.of_sweeps] = [{plans}, {plans_of_sweeps}]");
+    browser.run(&before).await;
+    browser.run(&type_base).await;
+    browser.wait_for(&format!("{plans} > window.plans")).await;
+    browser.shows(".swept .fault", "-100 is outside").await;
+    browser
+        .wait_for(&format!("{plans_of_sweeps} === window.of_sweeps"))
+        .await;
     browser.click("button.primary").await;
+    browser
+        .wait_for("document.querySelector('p.line [role=status]').innerText !== ''")
+        .await;
     browser.shows(".swept .fault", "-100 is outside").await;
     let refused = browser.complaints().await;
     let expected = |line: &String| line.contains("/v1/sweeps") && line.contains("422");
