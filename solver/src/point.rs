@@ -38,7 +38,9 @@ mod window;
 pub(crate) use contact_at_position::ContactAtPosition;
 pub use error::PointError;
 pub(crate) use integrator::PointIntegrator;
-pub(crate) use jump::{JumpBounds, JumpControl, laws_of_implicit_jumps};
+pub(crate) use jump::{
+    ITERATIONS, ITERATIONS_OF_IMPLICIT, JumpBounds, JumpControl, laws_of_implicit_jumps, saves_work,
+};
 pub(crate) use lattice::is_steady;
 pub(crate) use legs::legs;
 pub use motion_history::PointHistory;

@@ -11,7 +11,10 @@ use crate::effects;
 use crate::law::surface::SurfaceWear;
 use crate::law::wear::LocalState;
 use crate::number::{count_at_least, real, real_cycles};
-use crate::point::{JumpBounds, JumpControl, is_steady, laws_of_implicit_jumps, legs};
+use crate::point::{
+    ITERATIONS, ITERATIONS_OF_IMPLICIT, JumpBounds, JumpControl, is_steady, laws_of_implicit_jumps,
+    legs, saves_work,
+};
 use crate::scene::{Effect, Scene};
 use crate::schedule::jump::Formula;
 use crate::schedule::jump::implicit::two_steps;
@@ -46,15 +49,12 @@ const SHARE: f64 = 0.5;
 /// The same of implicit jumps, and what cells that pass an interface add from the first one on. Fitted to runs of a ball, bare and plated.
 const SHARE_OF_IMPLICIT: f64 = 0.4;
 const AT_LAYERS: f64 = 0.06;
-/// Solves of an implicit jump beside those at its positions, and iterations of each where it wears little against the indentation.
+/// Solves of an implicit jump beside those at its positions.
 const SOLVES_AT_THE_END: usize = 2;
-const ITERATIONS_OF_IMPLICIT: f64 = 20.0;
 /// Fields of an implicit jump at each position: pressures before and after it, and those of `CyclePressures`.
 const HELD_OF_CELL: f64 = 15.0;
 /// Half-length of the window over that of the contact; mean over a run of windows that widen by thirds.
 const WINDOW: f64 = 1.6;
-/// Iterations of a solve: about 12 of an unworn contact, 3 to 8 where it wears.
-const ITERATIONS: f64 = 5.0;
 /// Solves of a cycle in which a part sticks, and iterations of each with its stick and slip.
 const STICKING_SOLVES: usize = 4;
 const STICKING_ITERATIONS: f64 = 150.0;
@@ -156,7 +156,7 @@ pub fn point_forecast(scene: &Scene) -> Option<PointForecast> {
         let implicit = laws_of_implicit_jumps(contact)
             .filter(|_| scene.mission.is_none() && is_moving && done > 0)
             .map(|_| ImplicitStep::next(jumps, contact, done, remaining))
-            .filter(|step| step.jump >= jump);
+            .filter(|step| saves_work(contact, worn.along, step.jump, jump));
         if let Some(step) = &implicit {
             jump = step.jump;
         }

@@ -27,7 +27,7 @@ mod surface;
 mod tests;
 
 use super::super::error::PointError;
-use super::super::jump::{laws_of_implicit_jumps, rejected_implicit};
+use super::super::jump::{laws_of_implicit_jumps, rejected_implicit, saves_work};
 use super::super::point_state::PointState;
 use super::super::record::PointCycle;
 use super::super::state::State;
@@ -56,7 +56,8 @@ impl PointIntegrator {
         let accuracy = &self.scene.accuracy;
         let computed = control.next(accuracy, state.done, remaining, self.jump_bounds(state));
         let jump = state.control.next_implicit(accuracy, state.done, remaining);
-        if jump < computed {
+        let along = state.neutral.half_lengths_mm.0;
+        if !saves_work(&self.scene, along, jump, computed) {
             state.control = control;
             return Ok(None);
         }

@@ -13,17 +13,22 @@ use std::ops::Range;
 use crate::closed_form::StrokeParts;
 use crate::number::{count_at_least, nearest, real};
 use crate::point::lattice::Lattice;
-use crate::sides::Sides;
+use crate::sides::{Side, Sides};
 
 /// A place of the slider, and the path in mm that it stands for in a cycle together with its mirrored one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
     /// Position of the slider, cells from its leftmost one.
     pub(super) slider: usize,
-    /// First rows of the window on both bodies.
-    pub(super) rows: Sides<usize>,
     /// Offsets of the window from the middles of both bodies, cells.
     pub(super) offsets: Sides<f64>,
+    pub(super) path: f64,
+}
+
+/// Rows of a body under the window, and the path in mm that they are there for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Stay {
+    pub(super) first_row: usize,
     pub(super) path: f64,
 }
 
@@ -31,6 +36,8 @@ pub(super) struct Place {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct JumpPosition {
     pub(super) places: Vec<Place>,
+    /// The same by the rows of each body: one stay of a slider on a flat, whose contact does not move on it.
+    pub(super) stays: Sides<Vec<Stay>>,
     /// Path of all of them, mm.
     pub(super) path: f64,
 }
@@ -41,6 +48,12 @@ impl JumpPosition {
         let places = self.places.iter();
         places.map(|place| (place, place.path / self.path))
     }
+
+    /// All stays on a side, with the path of each over that of all.
+    pub(super) fn stays(&self, side: Side) -> impl Iterator<Item = (usize, f64)> {
+        let stays = self.stays.of(side).iter();
+        stays.map(|stay| (stay.first_row, stay.path / self.path))
+    }
 }
 
 /// Positions of a lattice, with parts in cells.
@@ -49,18 +62,18 @@ pub(super) fn positions(lattice: &Lattice, parts: StrokeParts) -> Vec<JumpPositi
     let length = parts.length.max(1.0);
     let parts = StrokeParts { length, ..parts };
     let intervals = count_at_least(real(amplitude) / length).min(amplitude);
-    let at = |number: usize| (amplitude * number + intervals / 2) / intervals;
+    let at = |number: f64| real(amplitude) * number / real(intervals);
     // Where the path about an end of an interval begins, cells from the neutral place.
     let begin = |number: usize| match number {
         0 => 0.0,
         number if number > intervals => real(amplitude),
-        number => 0.5 * real(at(number - 1) + at(number)),
+        number => at(real(number) - 0.5),
     };
     let mut positions = Vec::new();
     let mut rest = intervals + 1;
     while rest > 0 {
         let last = rest - 1;
-        let together = parts.lengths(real(amplitude - at(last)));
+        let together = parts.lengths(real(amplitude) - at(real(last)));
         let first = rest - together.min(rest);
         positions.push(JumpPosition::of(lattice, begin(first)..begin(rest)));
         rest = first;
@@ -80,20 +93,35 @@ impl JumpPosition {
         });
         let places: Vec<Place> = places.collect();
         Self {
+            stays: Sides::from_fn(|side| stays(lattice, side, &places)),
             path: places.iter().map(|place| place.path).sum(),
             places,
         }
     }
 }
 
+/// Stays of the window on a side.
+fn stays(lattice: &Lattice, side: Side, places: &[Place]) -> Vec<Stay> {
+    let mut stays: Vec<Stay> = Vec::new();
+    for Place { slider, path, .. } in places {
+        let first_row = lattice.first_row(side, *slider);
+        match stays.last_mut() {
+            Some(last) if last.first_row == first_row => last.path += path,
+            _ => stays.push(Stay {
+                first_row,
+                path: *path,
+            }),
+        }
+    }
+    stays
+}
+
 impl Place {
     /// So many cells from the neutral position, with the path of a number of cells to either side and in both passes.
     fn of(lattice: &Lattice, cell: usize, cells: f64) -> Self {
         let slider = lattice.amplitude + cell;
-        let rows = Sides::from_fn(|side| lattice.first_row(side, slider));
         Self {
             slider,
-            rows,
             offsets: Sides::from_fn(|side| lattice.offset_mm(side, slider) / lattice.size_mm.0),
             path: 4.0 * lattice.size_mm.0 * cells,
         }

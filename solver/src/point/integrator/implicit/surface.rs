@@ -7,7 +7,7 @@
 //! after the filter, with the least compliance c of the grid as C: s = sqrt((c + n k_m W)/(c + n k W)). Limiting case: one rate, s = 1.
 
 use super::fields::add_mirrored;
-use super::positions::{JumpPosition, Place};
+use super::positions::JumpPosition;
 use crate::point::surface::Surface;
 use crate::sides::Side;
 
@@ -83,8 +83,8 @@ impl<'a> JumpSurface<'a> {
 
     /// Adds the mean of a field of the surface at the places of a position.
     fn add_mean(&self, position: &JumpPosition, field: &[f64], out: &mut [f64]) {
-        for (place, weight) in position.weights() {
-            let first = self.first(place);
+        for (row, weight) in position.stays(self.side) {
+            let first = self.first(row);
             let values = &field[first..first + out.len()];
             for (out, value) in out.iter_mut().zip(values) {
                 *out += weight * value;
@@ -92,9 +92,9 @@ impl<'a> JumpSurface<'a> {
         }
     }
 
-    /// First cell of the window at a place.
-    fn first(&self, place: &Place) -> usize {
-        self.surface.dose.width() * place.rows.of(self.side)
+    /// First cell of the window from a row on.
+    fn first(&self, row: usize) -> usize {
+        self.surface.dose.width() * row
     }
 
     /// Takes a direction of the pressures; returns the sum of depths times its doses, and the change of that sum by the present layers.
@@ -196,8 +196,8 @@ impl<'a> JumpSurface<'a> {
         let count = pressure.len() / positions.len();
         for (position, pressure) in positions.iter().zip(pressure.chunks_exact_mut(count)) {
             for (cell, p) in pressure.iter_mut().enumerate() {
-                let parts = position.places.iter();
-                let parts = parts.map(|place| self.sum[self.first(place) + cell]);
+                let rows = position.stays(self.side).map(|(row, _)| row);
+                let parts = rows.map(|row| self.sum[self.first(row) + cell]);
                 *p *= parts.fold(f64::INFINITY, f64::min);
             }
         }
@@ -267,8 +267,8 @@ impl<'a> JumpSurface<'a> {
         let fields = field.chunks_exact_mut(count);
         for (position, (field, free)) in positions.iter().zip(fields.zip(free.chunks_exact(count)))
         {
-            for (place, weight) in position.weights() {
-                let first = self.first(place);
+            for (row, weight) in position.stays(self.side) {
+                let first = self.first(row);
                 let shares = &self.share[first..first + count];
                 let means = self.sum[first..first + count].iter().zip(shares);
                 for ((value, free), (sum, share)) in field.iter_mut().zip(free).zip(means) {
@@ -290,9 +290,9 @@ fn add_positions(
     out.fill(0.0);
     let count = field.len() / positions.len();
     for (position, values) in positions.iter().zip(field.chunks_exact(count)) {
-        for place in &position.places {
-            let first = surface.dose.width() * place.rows.of(side);
-            let half = 0.5 * place.path;
+        for stay in position.stays.of(side) {
+            let first = surface.dose.width() * stay.first_row;
+            let half = 0.5 * stay.path;
             for (out, value) in out[first..first + count].iter_mut().zip(values) {
                 *out += half * value;
             }
