@@ -13,7 +13,7 @@ mod summary;
 
 pub use depth_map::{ContactMaps, DepthMap, PressureMap};
 pub use history::{Columns, ExposedLayer, Histories, JobHistory, SideSeries, Station, WearHistory};
-pub use life::{LifeBand, LifeEntry, LifeStatus};
+pub use life::{LifeAtReliability, LifeBand, LifeEntry, LifeStatus, Verdict};
 pub use line::{LineProfile, LineProfiles, LineSeries, LineStation, SectionSide};
 pub use manifest::{Manifest, ResultFile};
 pub use mission::{BlockExtent, BlockSide, BlockSummary};

@@ -80,6 +80,10 @@ fn shows_figures(tables: &str, document: &Value) {
             "first of 24, b10",
             &reached["band"]["first_of_contacts_b10"],
         ),
+        (
+            "99 % of connectors",
+            &reached["at_reliability"][1]["of_contacts"],
+        ),
         ("hours", &reached["duration_h"]),
     ] {
         agrees(cell(tables, &["base_metal", "slider"], column), value, 1.0);

@@ -18,6 +18,20 @@ string_enum! {
     }
 }
 
+string_enum! {
+    /// Answer to whether a connector lasts its target.
+    Verdict {
+        /// It lasts the target in all shares of the reliability.
+        Pass = "pass",
+        /// In at least one share it does not.
+        Fail = "fail",
+        /// The estimated error of the life, the end of the run or a life without a band leave it open.
+        Undecided = "undecided",
+        /// The quantity of the criterion is not simulated.
+        NotModelled = "not_modelled",
+    }
+}
+
 /// Life by one criterion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct LifeEntry {
@@ -43,6 +57,18 @@ pub struct LifeEntry {
     /// Scatter of these cycles, of a continuous motion that of the distance in mm; null where it was not reached, and where `reason`
     /// says that none is known.
     pub band: Option<LifeBand>,
+    /// Lives at the shares of `life.reliability`; none where there is no band.
+    #[serde(default)]
+    pub at_reliability: Vec<LifeAtReliability>,
+    /// Part of all contacts that fails before `life.target_cycles`; null without a target or a band.
+    #[serde(default)]
+    pub share_failed_at_target: Option<f64>,
+    /// The same of all connectors, of which each fails with the first of its contacts.
+    #[serde(default)]
+    pub connectors_failed_at_target: Option<f64>,
+    /// Verdict on the target; null without one.
+    #[serde(default)]
+    pub verdict: Option<Verdict>,
     /// Quantity of the criterion at the end of the run: a worn depth in mm, a part of the scar or a resistance in mOhm.
     pub value: Option<f64>,
     /// Limit, in the same unit.
@@ -54,6 +80,9 @@ pub struct LifeEntry {
 /// Cycles, of a continuous motion mm, that a part of all contacts does not survive, for wear coefficients of a lognormal distribution.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct LifeBand {
+    /// Of a hundredth; null in results of versions without it.
+    #[serde(default)]
+    pub b1: Option<f64>,
     /// Of a tenth.
     pub b10: f64,
     /// Of a half.
@@ -62,4 +91,18 @@ pub struct LifeBand {
     pub b90: f64,
     /// Cycles or mm that the first of `contacts` independent contacts does not survive in a tenth of all connectors.
     pub first_of_contacts_b10: f64,
+}
+
+/// Life that a share of all contacts or connectors lasts, in the unit of the band.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct LifeAtReliability {
+    /// Share that lasts.
+    pub share: f64,
+    /// Cycles or mm that it lasts, of all contacts.
+    pub cycles: f64,
+    /// The same of all connectors: the first of their contacts.
+    pub of_contacts: f64,
+    /// `of_contacts` over the target; null without one.
+    #[serde(default)]
+    pub margin: Option<f64>,
 }

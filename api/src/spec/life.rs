@@ -44,6 +44,17 @@ pub struct LifeSettings {
         deserialize_with = "super::count::optional"
     )]
     pub contacts: Option<u64>,
+    /// Cycles that the connector has to last; results then say which part of all contacts and connectors fails before, and whether the shares of
+    /// `reliability` last.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "super::count::optional"
+    )]
+    pub target_cycles: Option<u64>,
+    /// Shares of all contacts, and connectors, that have to last; lives are stated at each (default 0.9 and 0.99).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reliability: Option<Vec<f64>>,
     /// Criteria that end a life; the first exposure of every layer and of the base metal of both parts if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub criteria: Option<Vec<Criterion>>,

@@ -87,21 +87,32 @@ fn end(spec: &Spec, summary: &Summary) -> String {
 fn lives(spec: &Spec, life: &[LifeEntry]) -> Table {
     let unit = if is_continuous(spec) { "mm" } else { "cycles" };
     let contacts = spec.life.contacts.unwrap_or(1);
-    let header = [
+    let shares = further_shares(spec);
+    let target = spec.life.target_cycles.unwrap_or_default();
+    let mut header = vec![
         "life until".to_owned(),
         "side".to_owned(),
         unit.to_owned(),
         "b10".to_owned(),
         "b90".to_owned(),
         format!("first of {contacts}, b10"),
+    ];
+    header.extend(shares.iter().map(|share| {
+        // Without round-off.
+        let percent = (1e8 * share).round() / 1e6;
+        format!("{percent} % of connectors")
+    }));
+    header.extend([
+        format!("connectors failed by {target}, %"),
+        "verdict".to_owned(),
         "repetitions".to_owned(),
         "hours".to_owned(),
         "error, %".to_owned(),
-    ];
-    let rows: Vec<_> = life.iter().map(cells).collect();
+    ]);
+    let rows: Vec<_> = life.iter().map(|entry| cells(entry, &shares)).collect();
     let is_filled = |column: &usize| rows.iter().any(|row| !row[*column].is_empty());
     let columns: Vec<usize> = (0..header.len()).filter(is_filled).collect();
-    let of_columns = |cells: &[String; 9]| -> Vec<String> {
+    let of_columns = |cells: &Vec<String>| -> Vec<String> {
         let filled = columns.iter().map(|column| cells[*column].clone());
         filled.collect()
     };
@@ -110,25 +121,44 @@ fn lives(spec: &Spec, life: &[LifeEntry]) -> Table {
     table
 }
 
+/// Shares of the reliability besides nine tenths, which are the column of the first contact.
+fn further_shares(spec: &Spec) -> Vec<f64> {
+    let shares = spec.life.reliability.iter().flatten().copied();
+    shares.filter(|share| (share - 0.9).abs() > 1e-9).collect()
+}
+
 /// One life in the columns above.
-fn cells(entry: &LifeEntry) -> [String; 9] {
+fn cells(entry: &LifeEntry, shares: &[f64]) -> Vec<String> {
     let band = entry.band.as_ref();
     let reached = match entry.status {
         LifeStatus::Reached => shown(entry.cycles.or(entry.sliding_distance_mm)),
         LifeStatus::NotReached => "not reached".to_owned(),
         LifeStatus::NotModelled => "not modelled".to_owned(),
     };
-    [
+    let percent = |part: Option<f64>| shown(part.map(|part| 100.0 * part));
+    let mut cells = vec![
         until(&entry.criterion),
         entry.side.clone().unwrap_or_default(),
         reached,
         shown(band.map(|band| band.b10)),
         shown(band.map(|band| band.b90)),
         shown(band.map(|band| band.first_of_contacts_b10)),
+    ];
+    cells.extend(shares.iter().map(|share| {
+        let mut at = entry.at_reliability.iter();
+        let at = at.find(|at| at.share.to_bits() == share.to_bits());
+        shown(at.map(|at| at.of_contacts))
+    }));
+    cells.extend([
+        percent(entry.connectors_failed_at_target),
+        entry
+            .verdict
+            .map_or_else(String::new, |verdict| verdict.as_str().to_owned()),
         shown(entry.repetitions),
         shown(entry.duration_h),
-        shown(entry.estimated_relative_error.map(|error| 100.0 * error)),
-    ]
+        percent(entry.estimated_relative_error),
+    ]);
+    cells
 }
 
 fn shown(value: Option<f64>) -> String {

@@ -1,12 +1,14 @@
 //! Life documents: the cycles to each criterion with their scatter (`spec::scatter`).
 
-use api::results::{LifeBand, LifeEntry, LifeStatus};
+mod verdict;
+
+use api::results::{LifeBand, LifeEntry, LifeStatus, Verdict};
 use api::spec::{Criterion, CriterionKind, EnumValue, LifeSettings};
 use solver::record::{CriterionState, Life};
 use solver::scene::{Motion, Scene};
 
 use crate::number::real;
-use crate::spec::scatter::{FollowsProduct, Ratios};
+use crate::spec::scatter::{FollowsProduct, Scatter};
 
 const SECONDS_PER_HOUR: f64 = 3_600.0;
 
@@ -35,15 +37,23 @@ pub(crate) fn entries(
             };
             match state {
                 Some((number, state)) => {
-                    let ratios = ratios(settings, follows, criterion, || {
+                    let scatter = scatter(settings, follows, criterion, || {
                         let of_scenes = life.scattered.iter();
                         of_scenes
                             .map(|lives| lives.get(number).copied().flatten())
                             .collect()
                     });
-                    entry(scene, ratios, criterion, state, done)
+                    let of_run = OfRun {
+                        scene,
+                        settings,
+                        done,
+                    };
+                    entry(of_run, scatter.as_ref(), criterion, state)
                 }
-                None => not_modelled(criterion, resistance_lacks),
+                None => LifeEntry {
+                    verdict: settings.target_cycles.map(|_| Verdict::NotModelled),
+                    ..not_modelled(criterion, resistance_lacks)
+                },
             }
         })
         .collect()
@@ -58,12 +68,12 @@ fn numbered(
 }
 
 /// Lives over that of the median contact: by the product of coefficient and cycles where that decides, or those that were solved for.
-fn ratios(
+fn scatter(
     settings: &LifeSettings,
     follows: FollowsProduct,
     criterion: &Criterion,
     solved: impl Fn() -> Option<Vec<f64>>,
-) -> Option<Ratios> {
+) -> Option<Scatter> {
     let is_resistance = criterion.kind == EnumValue::Known(CriterionKind::Resistance);
     let follows = if is_resistance {
         follows.resistance
@@ -75,9 +85,9 @@ fn ratios(
             .coefficient_of_variation
             .is_none_or(|variation| variation <= 0.0)
     {
-        return Some(Ratios::of(settings));
+        return Some(Scatter::of(settings));
     }
-    solved()?.try_into().ok().map(Ratios::from_scenes)
+    Scatter::solved(settings, &solved()?)
 }
 
 fn not_modelled(criterion: &Criterion, lacks: &[String]) -> LifeEntry {
@@ -109,19 +119,36 @@ fn empty(criterion: &Criterion, status: LifeStatus) -> LifeEntry {
         duration_h: None,
         estimated_relative_error: None,
         band: None,
+        at_reliability: Vec::new(),
+        share_failed_at_target: None,
+        connectors_failed_at_target: None,
+        verdict: None,
         value: None,
         limit: None,
         reason: None,
     }
 }
 
+/// What all criteria of a run share.
+#[derive(Clone, Copy)]
+struct OfRun<'a> {
+    scene: &'a Scene,
+    settings: &'a LifeSettings,
+    /// Cycles of the run.
+    done: u64,
+}
+
 fn entry(
-    scene: &Scene,
-    ratios: Option<Ratios>,
+    of_run: OfRun<'_>,
+    scatter: Option<&Scatter>,
     criterion: &Criterion,
     state: &CriterionState,
-    done: u64,
 ) -> LifeEntry {
+    let OfRun {
+        scene,
+        settings,
+        done,
+    } = of_run;
     let measured = |status| LifeEntry {
         value: Some(state.value),
         limit: Some(state.limit),
@@ -142,6 +169,7 @@ fn entry(
         };
         return LifeEntry {
             reason: Some(reason),
+            verdict: verdict::of_unreached(settings, scatter, done),
             ..measured(LifeStatus::NotReached)
         };
     };
@@ -152,24 +180,27 @@ fn entry(
         Motion::Reciprocating { .. } | Motion::Periodic { .. } => (Some(cycles), cycles),
         Motion::Continuous { .. } => (None, distance_mm),
     };
-    LifeEntry {
+    let mut entry = LifeEntry {
         cycles: counted,
         repetitions: mission.map(|mission| cycles / real(mission.cycles())),
         sliding_distance_mm: Some(distance_mm),
         duration_h: seconds.map(|seconds| seconds / SECONDS_PER_HOUR),
         estimated_relative_error: state.error,
-        band: ratios.map(|ratios| band(measure, ratios)),
-        reason: ratios.is_none().then(|| NO_BAND.to_owned()),
+        band: scatter.map(|scatter| band(measure, scatter)),
+        reason: scatter.is_none().then(|| NO_BAND.to_owned()),
         ..measured(LifeStatus::Reached)
-    }
+    };
+    verdict::judge(&mut entry, settings, scatter, measure);
+    entry
 }
 
 /// The scatter of a life, in its unit.
-fn band(life: f64, ratios: Ratios) -> LifeBand {
+fn band(life: f64, scatter: &Scatter) -> LifeBand {
     LifeBand {
-        b10: ratios.b10 * life,
+        b1: Some(scatter.b1() * life),
+        b10: scatter.b10() * life,
         b50: life,
-        b90: ratios.b90 * life,
-        first_of_contacts_b10: ratios.first_of_contacts_b10 * life,
+        b90: scatter.b90() * life,
+        first_of_contacts_b10: scatter.not_survived_by_connectors(0.1) * life,
     }
 }

@@ -47,6 +47,7 @@ pub(super) fn resolve(numerics: &Numerics<'_>, diagnostics: &mut Diagnostics) ->
     };
     let (stop, stop_mohm) = stop::resolve(&spec.stop, surfaces, diagnostics);
     let (life, criteria, life_mohm) = life::resolve(&spec.life, surfaces, diagnostics);
+    life::check_motion(&spec.life, loading.movement.scene, diagnostics);
     let mut conduction = conductors.conduction;
     // Limits of the resistance belong to what conducts.
     if let Conduction::Known(electrical) = &mut conduction {

@@ -16,48 +16,152 @@ use statrs::distribution::{ContinuousCDF, Normal};
 use crate::number::{real, whole};
 use crate::spec::coefficients;
 
-/// Part of all contacts, or connectors, that b10 belongs to.
+/// Parts of all contacts, or connectors, that b1, b10 and b90 belong to.
+const HUNDREDTH: f64 = 0.01;
 const TENTH: f64 = 0.1;
+/// Parts that differ by less, relatively, are one.
+const SAME: f64 = 1e-9;
 /// Cycles of a run with smaller coefficients over those that the product would take: its lives may be longer. Arbitrary.
 const LONGER: f64 = 1.25;
 
-/// Lives over the median one of the contacts that the ends of a band belong to.
+/// The life that a part of all contacts does not survive.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Ratios {
-    pub(crate) b10: f64,
-    pub(crate) b90: f64,
-    /// Of the first of all contacts in a tenth of all connectors.
-    pub(crate) first_of_contacts_b10: f64,
+struct Quantile {
+    /// The part.
+    failed: f64,
+    /// The life over the median one.
+    ratio: f64,
 }
 
-impl Ratios {
-    /// Ratios of lives in inverse proportion to the coefficients.
+/// Lives over the median one that parts of all contacts do not survive.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Scatter {
+    /// In the order of their parts; the median is none of them.
+    quantiles: Vec<Quantile>,
+    contacts: u64,
+}
+
+impl Scatter {
+    /// Of lives in inverse proportion to the coefficients.
     pub(crate) fn of(settings: &LifeSettings) -> Self {
         let variation = settings.coefficient_of_variation.unwrap_or_default();
         let contacts = settings.contacts.unwrap_or(1);
-        // Exact where the part is far below the precision of 1 - 0.9^(1/n).
-        let first = -((-TENTH).ln_1p() / real(contacts)).exp_m1();
+        let mut parts = vec![HUNDREDTH, TENTH, 1.0 - TENTH, of_first(TENTH, contacts)];
+        for share in settings.reliability.iter().flatten() {
+            parts.extend([1.0 - share, of_first(1.0 - share, contacts)]);
+        }
+        parts.sort_by(f64::total_cmp);
+        parts.dedup_by(|part, before| *part - *before < SAME * *part);
+        let quantile = |failed| Quantile {
+            failed,
+            ratio: lognormal(variation, failed),
+        };
         Self {
-            b10: lognormal(variation, TENTH),
-            b90: lognormal(variation, 1.0 - TENTH),
-            first_of_contacts_b10: lognormal(variation, first),
+            quantiles: parts.into_iter().map(quantile).collect(),
+            contacts,
         }
     }
 
-    /// In the order of [`scenes`].
-    fn all(self) -> [f64; 3] {
-        [self.b10, self.b90, self.first_of_contacts_b10]
+    /// Of lives in the order of [`scenes`] over that of the median contact; `None` if there is not one for each scene.
+    pub(crate) fn solved(settings: &LifeSettings, ratios: &[f64]) -> Option<Self> {
+        let mut scatter = Self::of(settings);
+        if ratios.len() != scatter.quantiles.len() {
+            return None;
+        }
+        for (quantile, ratio) in scatter.quantiles.iter_mut().zip(ratios) {
+            quantile.ratio = *ratio;
+        }
+        Some(scatter)
     }
 
-    /// From lives in the order of [`scenes`] over that of the median contact.
-    pub(crate) fn from_scenes(ratios: [f64; 3]) -> Self {
-        let [b10, b90, first_of_contacts_b10] = ratios;
-        Self {
-            b10,
-            b90,
-            first_of_contacts_b10,
-        }
+    /// Lives over the median one of the contacts that are solved for where the product does not decide.
+    fn ratios(&self) -> impl Iterator<Item = f64> {
+        self.quantiles.iter().map(|quantile| quantile.ratio)
     }
+
+    pub(crate) fn b1(&self) -> f64 {
+        self.not_survived_by(HUNDREDTH)
+    }
+
+    pub(crate) fn b10(&self) -> f64 {
+        self.not_survived_by(TENTH)
+    }
+
+    pub(crate) fn b90(&self) -> f64 {
+        self.not_survived_by(1.0 - TENTH)
+    }
+
+    /// Life over the median one that a part of all contacts does not survive, straight in ln N over z(F) between the known ones.
+    pub(crate) fn not_survived_by(&self, failed: f64) -> f64 {
+        let known = self.quantiles.iter();
+        let same = |quantile: &&Quantile| (quantile.failed - failed).abs() < SAME * failed;
+        if let Some(quantile) = known.clone().find(same) {
+            return quantile.ratio;
+        }
+        let points = self.points();
+        let z = Normal::standard().inverse_cdf(failed);
+        let [a, b] = segment(&points, |point| point.z, z);
+        (a.ln_ratio + (b.ln_ratio - a.ln_ratio) * (z - a.z) / (b.z - a.z)).exp()
+    }
+
+    /// The same of all connectors, of which each fails with the first of its contacts.
+    pub(crate) fn not_survived_by_connectors(&self, failed: f64) -> f64 {
+        self.not_survived_by(of_first(failed, self.contacts))
+    }
+
+    /// Part of all contacts that fails before a life over the median one.
+    pub(crate) fn failed(&self, ratio: f64) -> f64 {
+        let points = self.points();
+        let ln_ratio = ratio.ln();
+        let [a, b] = segment(&points, |point| point.ln_ratio, ln_ratio);
+        let rise = b.ln_ratio - a.ln_ratio;
+        if rise <= 0.0 {
+            // All contacts live equally long.
+            return if ln_ratio < a.ln_ratio { 0.0 } else { 1.0 };
+        }
+        let z = a.z + (b.z - a.z) * (ln_ratio - a.ln_ratio) / rise;
+        Normal::standard().cdf(z)
+    }
+
+    /// Part of all connectors that fails while a part of all contacts does: 1 - (1 - F)^n.
+    pub(crate) fn connectors_failed(&self, failed: f64) -> f64 {
+        -(real(self.contacts) * (-failed).ln_1p()).exp_m1()
+    }
+
+    /// The known quantiles with the median.
+    fn points(&self) -> Vec<Point> {
+        let point = |quantile: &Quantile| Point {
+            z: Normal::standard().inverse_cdf(quantile.failed),
+            ln_ratio: quantile.ratio.ln(),
+        };
+        let mut points: Vec<Point> = self.quantiles.iter().map(point).collect();
+        points.push(Point {
+            z: 0.0,
+            ln_ratio: 0.0,
+        });
+        points.sort_by(|a, b| a.z.total_cmp(&b.z));
+        points.dedup_by(|point, before| point.z - before.z < SAME);
+        points
+    }
+}
+
+/// A quantile by its normal deviate.
+#[derive(Debug, Clone, Copy)]
+struct Point {
+    z: f64,
+    ln_ratio: f64,
+}
+
+/// The points on both sides of a value, or the two nearest ones.
+fn segment(points: &[Point], of: impl Fn(&Point) -> f64, value: f64) -> [Point; 2] {
+    let above = points.partition_point(|point| of(point) <= value);
+    let end = above.clamp(1, points.len() - 1);
+    [points[end - 1], points[end]]
+}
+
+/// Part F of all contacts that has failed where this part of all connectors has: 1 - (1 - part)^(1/n), exact where that is small.
+fn of_first(part: f64, contacts: u64) -> f64 {
+    -((-part).ln_1p() / real(contacts)).exp_m1()
 }
 
 /// Median life of a contact of whose kind a part has failed after some cycles.
@@ -121,11 +225,9 @@ pub(super) fn scenes(
         spec.output.snapshots_at_cycles = None;
         scene_of(&spec)
     };
-    let scattered = Ratios::of(&filled.life).all().map(with);
-    scattered
-        .into_iter()
-        .collect::<Option<_>>()
-        .unwrap_or_default()
+    let scatter = Scatter::of(&filled.life);
+    let scattered = scatter.ratios().map(with);
+    scattered.collect::<Option<_>>().unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -137,25 +239,53 @@ mod tests {
         LifeSettings {
             coefficient_of_variation: Some(variation),
             contacts: Some(contacts),
-            criteria: None,
+            reliability: Some(vec![0.9, 0.99]),
+            ..LifeSettings::default()
         }
     }
 
     #[test]
     fn half_of_the_mean_as_deviation_scatters_the_life_by_a_factor_of_1_8() {
-        let one = Ratios::of(&settings(0.5, 1));
-        assert!((one.b10 - 0.545_87).abs() < 1e-5 && (one.b90 - 1.831_95).abs() < 1e-5);
-        assert!((one.first_of_contacts_b10 - one.b10).abs() < 1e-12);
-        let nine = Ratios::of(&settings(0.5, 9)).first_of_contacts_b10;
+        let one = Scatter::of(&settings(0.5, 1));
+        assert!((one.b10() - 0.545_87).abs() < 1e-5 && (one.b90() - 1.831_95).abs() < 1e-5);
+        // exp(-2.326348 s), s = sqrt(ln 1.25) = 0.472381.
+        assert!((one.b1() - 0.333_23).abs() < 1e-5, "{}", one.b1());
+        assert!((one.not_survived_by_connectors(TENTH) - one.b10()).abs() < 1e-12);
+        let nine = Scatter::of(&settings(0.5, 9)).not_survived_by_connectors(TENTH);
         assert!((nine - 0.342_40).abs() < 1e-5, "{nine}");
-        let certain = Ratios::of(&settings(0.0, 9));
-        assert!(
-            certain
-                .all()
-                .iter()
-                .all(|ratio| (ratio - 1.0).abs() < 1e-12)
-        );
+        let certain = Scatter::of(&settings(0.0, 9));
+        assert!(certain.ratios().all(|ratio| (ratio - 1.0).abs() < 1e-12));
+        assert!(certain.failed(0.9) < 1e-12 && certain.failed(1.1) > 1.0 - 1e-12);
         assert!((median(545.87, 0.1, &settings(0.5, 1)) - 1_000.0).abs() < 0.01);
+    }
+
+    /// Between and beyond the known parts as well: the logarithm of a lognormal life is straight over the normal deviate.
+    #[test]
+    fn parts_that_fail_are_those_of_the_distribution() {
+        let scatter = Scatter::of(&settings(0.5, 9));
+        for failed in [1e-6, 3e-3, 0.01, 0.05, 0.3, 0.5, 0.7, 0.97, 0.9999] {
+            let ratio = scatter.not_survived_by(failed);
+            assert!(
+                (ratio / lognormal(0.5, failed) - 1.0).abs() < 1e-6,
+                "{failed}"
+            );
+            assert!(
+                (scatter.failed(ratio) / failed - 1.0).abs() < 1e-6,
+                "{failed}"
+            );
+        }
+        let tenth = scatter.failed(scatter.not_survived_by_connectors(TENTH));
+        assert!((scatter.connectors_failed(tenth) - TENTH).abs() < 1e-9);
+        // Of lives that were solved for.
+        let solved = Scatter::solved(&settings(0.5, 1), &[0.4, 0.6, 1.5]).expect("three parts");
+        let found = [solved.b1(), solved.b10(), solved.b90()];
+        let same = found.iter().zip([0.4, 0.6, 1.5]);
+        assert!(
+            same.into_iter().all(|(a, b)| (a - b).abs() < 1e-12),
+            "{found:?}"
+        );
+        assert!((solved.failed(0.6) - 0.1).abs() < 1e-9 && (solved.failed(1.0) - 0.5).abs() < 1e-9);
+        assert_eq!(Scatter::solved(&settings(0.5, 1), &[0.4]), None);
     }
 
     #[test]
@@ -170,17 +300,14 @@ mod tests {
         let table =
             r#""by_cycle":[{"cycle":0,"coefficient":0.2},{"cycle":1200,"coefficient":0.6}]"#;
         let scene = accepted(&text(table)).scene;
-        let [b10, b90, first] = scene.scattered.as_slice() else {
+        let [b1, b10, b90] = scene.scattered.as_slice() else {
             panic!("{} scenes", scene.scattered.len());
         };
-        assert_eq!(
-            [b10.cycles, b90.cycles, first.cycles],
-            [1_000, 2_290, 1_000]
-        );
+        assert_eq!([b1.cycles, b10.cycles, b90.cycles], [1_000, 1_000, 2_290]);
         // The whole table, not that of the median contact.
         assert!((b90.largest_friction() - 0.6).abs() < 1e-12);
         let rate = |scene: &Scene| scene.slider.plating[0].rate_per_mpa;
         assert!((rate(b10) / rate(&scene) - 1.831_95).abs() < 1e-4);
-        assert!(first.scattered.is_empty());
+        assert!(b1.scattered.is_empty());
     }
 }

@@ -132,12 +132,18 @@ fn others() -> Vec<(&'static str, &'static str, Value)> {
         ("Spec", "name", name.clone()),
         ("Spec", "labels", labels),
         ("Spec", "cycles", cycles.clone()),
-        ("MissionBlock", "cycles", cycles),
+        ("MissionBlock", "cycles", cycles.clone()),
         ("MissionBlock", "name", name.clone()),
         ("Spec", "mission", entries(mission::BLOCK_LIMIT)),
         ("Spec", "repeat", counts(&mission::REPEAT)),
         ("Spec", "stop", entries(stop::STOP_LIMIT)),
         ("LifeSettings", "contacts", counts(&life::CONTACTS)),
+        ("LifeSettings", "target_cycles", cycles),
+        (
+            "LifeSettings",
+            "reliability",
+            shares(&life::RELIABILITY, life::MOST_SHARES),
+        ),
         ("Spots", "count", counts(&spots::COUNT)),
         ("Interface", "films", entries(films::FILM_LIMIT)),
         ("Motion", "contacts", counts(&vibration::CONTACTS)),
@@ -202,6 +208,14 @@ fn within(range: &RangeInclusive<f64>) -> Value {
 /// A list of so many entries at most.
 fn entries(most: usize) -> Value {
     json!({"maxItems": most})
+}
+
+/// A list of so many shares at most.
+fn shares(range: &RangeInclusive<f64>, most: usize) -> Value {
+    let mut share = within(range);
+    share["type"] = json!("number");
+    share["format"] = json!("double");
+    json!({"maxItems": most, "items": share})
 }
 
 fn counts(range: &RangeInclusive<u64>) -> Value {

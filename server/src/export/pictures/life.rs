@@ -11,7 +11,7 @@ use crate::export::pictures::{
     Axis, AxisRange, COLOURS, Colour, Mark, Panel, Picture, Scale, Series,
 };
 use crate::number::real;
-use crate::spec::scatter::{FollowsProduct, Ratios};
+use crate::spec::scatter::{FollowsProduct, Scatter};
 
 /// Colour of limits.
 const GREY: Colour = [90, 90, 90];
@@ -39,7 +39,8 @@ pub(crate) fn picture(
         }
     };
     let scatter = |follows: bool| {
-        let Ratios { b10, b90, .. } = Ratios::of(settings);
+        let scatter = Scatter::of(settings);
+        let (b10, b90) = (scatter.b10(), scatter.b90());
         (follows && b10 < b90).then_some([b10, b90])
     };
     let exposed = exposed(settings, &done, scatter(follows.depths), record);

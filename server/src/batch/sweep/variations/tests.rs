@@ -163,8 +163,9 @@ fn another(pointer: &str, value: &Value) -> Option<Value> {
     if value.is_u64() {
         return Some(json!(value.as_u64()? + (value.as_u64()? / 10).max(1)));
     }
-    // Places move inwards: an end of the block has no neighbour outwards.
-    let factor = if pointer.starts_with("/output/") {
+    // Places move inwards: an end of the block has no neighbour outwards. Shares stay below 1.
+    let is_bounded = |start: &&str| pointer.starts_with(*start);
+    let factor = if ["/output/", "/life/reliability/"].iter().any(is_bounded) {
         0.9
     } else {
         1.1
