@@ -135,7 +135,7 @@ fn cells(entry: &LifeEntry, shares: &[f64]) -> Vec<String> {
         LifeStatus::NotReached => "not reached".to_owned(),
         LifeStatus::NotModelled => "not modelled".to_owned(),
     };
-    let percent = |part: Option<f64>| shown(part.map(|part| 100.0 * part));
+    let percent = |share: Option<f64>| shown(share.map(|share| 100.0 * share));
     let mut cells = vec![
         until(&entry.criterion),
         entry.side.clone().unwrap_or_default(),

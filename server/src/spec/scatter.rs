@@ -46,9 +46,10 @@ impl Scatter {
     pub(crate) fn of(settings: &LifeSettings) -> Self {
         let variation = settings.coefficient_of_variation.unwrap_or_default();
         let contacts = settings.contacts.unwrap_or(1);
-        let mut parts = vec![HUNDREDTH, TENTH, 1.0 - TENTH, of_first(TENTH, contacts)];
+        let of_connectors = |part: f64| of_first(part, 1.0 / real(contacts));
+        let mut parts = vec![HUNDREDTH, TENTH, 1.0 - TENTH, of_connectors(TENTH)];
         for share in settings.reliability.iter().flatten() {
-            parts.extend([1.0 - share, of_first(1.0 - share, contacts)]);
+            parts.extend([1.0 - share, of_connectors(1.0 - share)]);
         }
         parts.sort_by(f64::total_cmp);
         parts.dedup_by(|part, before| *part - *before < SAME * *part);
@@ -106,7 +107,7 @@ impl Scatter {
 
     /// The same of all connectors, of which each fails with the first of its contacts.
     pub(crate) fn not_survived_by_connectors(&self, failed: f64) -> f64 {
-        self.not_survived_by(of_first(failed, self.contacts))
+        self.not_survived_by(of_first(failed, 1.0 / real(self.contacts)))
     }
 
     /// Part of all contacts that fails before a life over the median one.
@@ -125,7 +126,7 @@ impl Scatter {
 
     /// Part of all connectors that fails while a part of all contacts does: 1 - (1 - F)^n.
     pub(crate) fn connectors_failed(&self, failed: f64) -> f64 {
-        -(real(self.contacts) * (-failed).ln_1p()).exp_m1()
+        of_first(failed, real(self.contacts))
     }
 
     /// The known quantiles with the median.
@@ -159,9 +160,10 @@ fn segment(points: &[Point], of: impl Fn(&Point) -> f64, value: f64) -> [Point; 
     [points[end - 1], points[end]]
 }
 
-/// Part F of all contacts that has failed where this part of all connectors has: 1 - (1 - part)^(1/n), exact where that is small.
-fn of_first(part: f64, contacts: u64) -> f64 {
-    -((-part).ln_1p() / real(contacts)).exp_m1()
+/// Part of all groups in which one of a number of members has failed, 1 - (1 - part)^number, exact where that is small; by 1/number the part of all
+/// members for that of all groups.
+fn of_first(part: f64, number: f64) -> f64 {
+    -(number * (-part).ln_1p()).exp_m1()
 }
 
 /// Median life of a contact of whose kind a part has failed after some cycles.
