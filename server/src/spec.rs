@@ -207,7 +207,7 @@ fn warnings(given: &Spec, loading: &Loading<'_>, filled: &Filled) -> Vec<Fault> 
         spec.motion.as_ref(),
         scene,
     ));
-    warnings.extend(life::warnings(&spec.life, scene.cycles));
+    warnings.extend(life::warnings(&spec.life, scene));
     let derived = || loading.movement.all_derived();
     let of_slip = changing_friction::warnings_of_derived_slip(derived(), scene);
     warnings.extend(of_slip);

@@ -19,13 +19,13 @@ string_enum! {
 }
 
 string_enum! {
-    /// Answer to whether a connector lasts its target.
+    /// Verdict on the target of a specification.
     Verdict {
-        /// It lasts the target in all shares of the reliability.
+        /// Connectors last the target in every share of the reliability.
         Pass = "pass",
-        /// In at least one share it does not.
+        /// In at least one share they do not.
         Fail = "fail",
-        /// The estimated error of the life, the end of the run or a life without a band leave it open.
+        /// The error of the life, the end of the run or a life without a band leaves it open.
         Undecided = "undecided",
         /// The quantity of the criterion is not simulated.
         NotModelled = "not_modelled",

@@ -9,6 +9,7 @@ use solver::scene::{Motion, Scene};
 
 use crate::number::real;
 use crate::spec::scatter::{FollowsProduct, Scatter};
+use verdict::Lives;
 
 const SECONDS_PER_HOUR: f64 = 3_600.0;
 
@@ -129,7 +130,7 @@ fn empty(criterion: &Criterion, status: LifeStatus) -> LifeEntry {
     }
 }
 
-/// What all criteria of a run share.
+/// The run and the settings of all criteria.
 #[derive(Clone, Copy)]
 struct OfRun<'a> {
     scene: &'a Scene,
@@ -149,6 +150,11 @@ fn entry(
         settings,
         done,
     } = of_run;
+    let lives = Lives {
+        settings,
+        scatter,
+        tolerance: scene.accuracy.tolerance,
+    };
     let measured = |status| LifeEntry {
         value: Some(state.value),
         limit: Some(state.limit),
@@ -169,7 +175,7 @@ fn entry(
         };
         return LifeEntry {
             reason: Some(reason),
-            verdict: verdict::of_unreached(settings, scatter, done),
+            verdict: verdict::of_unreached(lives, done),
             ..measured(LifeStatus::NotReached)
         };
     };
@@ -190,7 +196,7 @@ fn entry(
         reason: scatter.is_none().then(|| NO_BAND.to_owned()),
         ..measured(LifeStatus::Reached)
     };
-    verdict::judge(&mut entry, settings, scatter, measure);
+    verdict::judge(&mut entry, lives, measure);
     entry
 }
 

@@ -92,7 +92,7 @@ pub(super) fn check_motion(
 }
 
 /// Warns where a run ends before it can show that the target is met.
-pub(super) fn warnings(filled: &LifeSettings, cycles: u64) -> Vec<Fault> {
+pub(super) fn warnings(filled: &LifeSettings, scene: &scene::Scene) -> Vec<Fault> {
     let Some(target) = filled.target_cycles else {
         return Vec::new();
     };
@@ -100,14 +100,17 @@ pub(super) fn warnings(filled: &LifeSettings, cycles: u64) -> Vec<Fault> {
     let shares = filled.reliability.iter().flatten().copied();
     let highest = shares.fold(0.0, f64::max);
     let least = scatter.not_survived_by_connectors(1.0 - highest);
-    let needed = whole((real(target) / least).ceil());
+    // As long as the verdict asks for.
+    let needed = whole((real(target) / (least * (1.0 - scene.accuracy.tolerance))).ceil());
+    let cycles = scene.cycles;
     if highest <= 0.0 || cycles >= needed {
         return Vec::new();
     }
     let detail = format!(
         "a run of {cycles} cycles cannot show that {} % of the connectors last {target}: the median contact has to last {needed}; give as many \
-         cycles, or expect `undecided` where the criterion is not reached",
-        100.0 * highest
+         cycles ({} at most), or expect `undecided` where the criterion is not reached",
+        100.0 * highest,
+        CYCLES.end()
     );
     vec![Fault::new("/life/target_cycles", detail)]
 }
@@ -129,4 +132,83 @@ fn exposures(surfaces: Surfaces<'_>) -> Vec<(Criterion, Option<Modelled>)> {
         .flat_map(of_side)
         .flat_map(|given| criterion::resolve("", &given, surfaces, &mut diagnostics))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::spec::{self, Refused};
+    use api::problem::Fault;
+
+    /// Faults or warnings of a memory card with this life, at `/life`.
+    fn said(life: &str, others: &str) -> Vec<Fault> {
+        let text = format!(r#"{{"system":{{"kind":"sd_card"}},"life":{life}{others}}}"#);
+        let faults = match spec::read(text.as_bytes()) {
+            Ok(resolved) => resolved.warnings,
+            Err(Refused::Faults(faults)) => faults,
+            Err(Refused::Parse(error)) => panic!("{error}"),
+        };
+        let of_life = |fault: &Fault| fault.pointer.starts_with("/life");
+        faults.into_iter().filter(of_life).collect()
+    }
+
+    #[test]
+    fn targets_and_shares_outside_of_their_limits_are_refused_with_both() {
+        let continuous = r#","motion":{"kind":"continuous","distance_mm":10}"#;
+        for (life, others, pointer, detail) in [
+            (
+                r#"{"target_cycles":0}"#,
+                "",
+                "/life/target_cycles",
+                "0 is outside 1 to 1000000000",
+            ),
+            (
+                r#"{"target_cycles":9}"#,
+                continuous,
+                "/life/target_cycles",
+                "no cycles",
+            ),
+            (
+                r#"{"target_cycles":9,"reliability":[]}"#,
+                "",
+                "/life/reliability",
+                "one share",
+            ),
+            (
+                r#"{"reliability":[0.9,1]}"#,
+                "",
+                "/life/reliability/1",
+                "1 is outside 0.001 to 0.999999",
+            ),
+            (
+                r#"{"reliability":[-0.5]}"#,
+                "",
+                "/life/reliability/0",
+                "-0.5 is outside 0.001",
+            ),
+            (
+                r#"{"reliability":[0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8,0.9]}"#,
+                "",
+                "/life/reliability",
+                "9 entries, at most 8",
+            ),
+        ] {
+            let said = said(life, others);
+            assert_eq!(said.len(), 1, "{life}: {said:?}");
+            assert_eq!(said[0].pointer, pointer);
+            assert!(said[0].detail.contains(detail), "{said:?}");
+        }
+    }
+
+    #[test]
+    fn a_run_that_is_too_short_for_its_target_is_warned_of() {
+        // 10 000 over 0.235914 and 0.98.
+        let life = r#"{"target_cycles":10000,"contacts":9,"reliability":[0.9,0.99]}"#;
+        let warned = said(life, r#","cycles":43253"#);
+        assert!(
+            warned.len() == 1 && warned[0].detail.contains("last 43254;"),
+            "{warned:?}"
+        );
+        assert_eq!(said(life, r#","cycles":43254"#), []);
+        assert_eq!(said(r#"{"contacts":9}"#, r#","cycles":1"#), []);
+    }
 }
